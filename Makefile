@@ -1,0 +1,96 @@
+# silt: builds what a scene requires. `./run.sh` calls this; by hand:
+#   make CONTACT=hertz_mindlin DRAG=ergun POROSITY=divided FLUID=navier_stokes
+#   make check      the tests          make verify   all verification cases
+#   make bench      timings            make format   clang-format over the tree
+SHAPE     ?= sphere
+CONTACT   ?= none
+ROLLING   ?= none
+BOND      ?= none
+COHESION  ?= none
+DRAG      ?= none
+POROSITY  ?= none
+FLUID     ?= none
+REFERENCE ?= none
+MODE      ?= release
+
+ANSWERS := shapes/$(SHAPE) contact/$(CONTACT) contact/rolling/$(ROLLING) contact/bond/$(BOND) \
+           contact/cohesion/$(COHESION) drag/$(DRAG) porosity/$(POROSITY) solver/fluid/$(FLUID) \
+           reference/$(REFERENCE)
+SLOT_DIRS := shapes contact contact/rolling contact/bond contact/cohesion drag porosity \
+             solver/fluid reference
+NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)
+BUILD := build/$(MODE)
+
+# ---- below here nothing needs editing ----
+CC := gcc
+WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion \
+        -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
+        -Wundef -Wvla -Wno-unknown-pragmas -Wno-missing-field-initializers
+BASE := -std=c11 -D_POSIX_C_SOURCE=200809L -fopenmp -ffp-contract=off -fno-math-errno \
+        -fno-trapping-math -fPIC
+FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -g
+FLAGS_debug   := -O1 -g3 -fno-omit-frame-pointer -fsanitize=address,undefined \
+                 -fno-sanitize-recover=undefined
+CFLAGS := $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE))
+LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undefined) -Wl,--as-needed
+comma := ,
+LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lm
+
+LIB := $(BUILD)/libsilt.a
+LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c)))
+BIN := $(BUILD)/bin/$(NAME)/silt
+ALL_ANSWERS := $(foreach d,$(SLOT_DIRS),$(wildcard $(d)/*.c))
+SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
+TOOLS := $(patsubst tools/%.c,$(BUILD)/%,$(wildcard tools/*.c))
+
+.PHONY: silt tools answers clean format format-check check verify bench deps FORCE
+silt: $(BIN)
+	@echo $(BIN)
+tools: $(TOOLS)
+answers: $(SHARED)
+
+$(BUILD)/obj/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -I$(BUILD) -MMD -MP -c -o $@ $<
+
+$(LIB): $(LIB_OBJ)
+	@rm -f $@
+	@ar rcs $@ $^
+
+# The library gives a binary only the objects that it refers to: a dry scene takes no FFT.
+$(BIN): $(BUILD)/obj/solver/main.o $(patsubst %,$(BUILD)/obj/%.o,$(ANSWERS)) $(LIB)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $^ $(LIB) $(LIBS)
+
+$(BUILD)/answers/%.so: $(BUILD)/obj/%.o
+	@mkdir -p $(@D)
+	$(CC) -shared $(LDFLAGS) -o $@ $<
+
+# Tools and tests hold the whole library, and show its symbols to the answers that they load.
+$(BUILD)/%: $(BUILD)/obj/tools/%.o $(LIB)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(LIB) $(LIBS) -ldl
+
+# A test names the answers that it links in a line "slots: contact/linear drag/none ...".
+$(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< \
+	  $(patsubst %,$(BUILD)/obj/%.o,$(shell sed -n 's/^ \* slots: //p' verify/$*.c)) \
+	  $(if $(shell sed -n 's/^ \* slots: //p' verify/$*.c),$(LIB),-Wl$(comma)--whole-archive \
+	  $(LIB) -Wl$(comma)--no-whole-archive -Wl$(comma)--unresolved-symbols=ignore-all) $(LIBS) -ldl
+
+$(BUILD)/provenance.h: FORCE
+	@mkdir -p $(@D)
+	@{ printf '#define SILT_REVISION "%s"\n' "$$(git describe --always --dirty 2>/dev/null || echo unknown)"; \
+	   printf '#define SILT_FLAGS "%s"\n' "$(FLAGS_$(MODE)) $(BASE)"; \
+	   printf '#define SILT_COMPILER "%s"\n' "$$($(CC) --version | head -n 1)"; } > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+$(BUILD)/obj/solver/provenance.o: $(BUILD)/provenance.h
+
+format:
+	clang-format -i $$(git ls-files '*.c' '*.h')
+format-check:
+	clang-format --dry-run -Werror $$(git ls-files '*.c' '*.h')
+clean:
+	rm -rf build
+
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

@@ -1,0 +1,361 @@
+/* contact_loop.c - the contact loop.
+ *
+ * The list of pairs is cut into fixed runs of grains. A thread takes a run, keeps the pairs that
+ * touch, and works them through the laws in blocks of TOUCH contacts, structure of arrays, which
+ * the compiler vectorises. The force of a contact goes to a record of its own; then each grain
+ * gathers its records in the order of the list. No two threads write to one place, and no sum
+ * depends on who computed what: the same bits on any number of threads. */
+#include "contact_loop.h"
+
+#include <limits.h>
+#include <string.h>
+#include "../contact/bond/bond.h"
+#include "../contact/cohesion/cohesion.h"
+#include "../contact/contact.h"
+#include "../contact/rolling/rolling.h"
+#include "../shapes/shape.h"
+#include "sim.h"
+
+enum { RUN = 128 }; /* grains per run */
+
+struct record {
+    vec3 force;              /* N, on the owner; the opposite on the other */
+    vec3 torque_i, torque_j; /* N m */
+};
+
+/* What a run of grains reports. */
+struct report {
+    double overlap;          /* of the smaller radius */
+    int worst;               /* slot of the largest overlap */
+    long touching;
+    double energy;           /* J */
+    vec3 wall_force[WALLS_MAX];
+    vec3 skeleton_force;     /* N, on frozen grains */
+};
+
+struct contact_work {
+    size_t capacity;
+    struct record *record; /* of the slots of a run, packed from the run's first slot on */
+    int *record_of;        /* per slot; -1: no contact */
+    int runs;
+    struct report *report;
+};
+
+/* One block in the making. */
+struct block {
+    struct candidates c;
+    struct touch t;
+    struct levers l;
+    double history[HISTORY_MAX][TOUCH];
+};
+
+int contact_rows(void)
+{
+    return contact_history + rolling_history + cohesion_history + bond_history;
+}
+
+double contact_reach(void)
+{
+    return fmax(cohesion_range(), bond_range());
+}
+
+void contact_create(struct sim *s, struct scene *scene)
+{
+    const struct grains *const g = &s->grains;
+    const char **const names = xalloc((size_t)g->n_materials + 1, sizeof *names);
+    for (int m = 0; m < g->n_materials; m++)
+        names[m] = g->materials[m].name;
+    const struct materials materials = {.n = g->n_materials, .name = names};
+    contact_init(scene, &materials);
+    rolling_init(scene, &materials);
+    cohesion_init(scene, &materials);
+    bond_init(scene, &materials);
+    xfree(names);
+    s->contacts = xalloc(1, sizeof *s->contacts);
+    s->contacts->runs = (g->n + RUN - 1) / RUN;
+    s->contacts->report = xalloc((size_t)s->contacts->runs, sizeof *s->contacts->report);
+}
+
+void contact_free(struct sim *s)
+{
+    if (!s->contacts)
+        return;
+    xfree(s->contacts->record);
+    xfree(s->contacts->record_of);
+    xfree(s->contacts->report);
+    xfree(s->contacts);
+}
+
+static void make_room(struct sim *s)
+{
+    struct contact_work *const w = s->contacts;
+    if (w->capacity >= s->neighbours.n_slots)
+        return;
+    xfree(w->record);
+    xfree(w->record_of);
+    w->capacity = s->neighbours.n_slots + s->neighbours.n_slots / 8 + 64;
+    w->record = xalloc(w->capacity, sizeof *w->record);
+    w->record_of = xalloc(w->capacity, sizeof *w->record_of);
+}
+
+/* Velocities, masses and materials of the contacts of a block, from its normals and levers. */
+static void load_motion(const struct sim *s, struct block *b)
+{
+    const struct grains *const g = &s->grains;
+    const int materials = g->n_materials;
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++) {
+        const int i = b->c.i[c], j = b->c.j[c];
+        const struct wall *const wall = b->c.wall[c];
+        const vec3 ai = v3(b->l.ix[c], b->l.iy[c], b->l.iz[c]);
+        const vec3 aj = v3(b->l.jx[c], b->l.jy[c], b->l.jz[c]);
+        const vec3 n = v3(t->nx[c], t->ny[c], t->nz[c]);
+        vec3 v = v3_add(g->vel[i], v3_cross(g->spin[i], ai)), full = g->vel_full[i];
+        vec3 w = g->spin[i];
+        double inv_m = g->inv_mass[i];
+        int other;
+        if (wall) {
+            v = v3_sub(v, wall->velocity);
+            other = wall->material;
+        } else {
+            v = v3_sub(v, v3_add(g->vel[j], v3_cross(g->spin[j], aj)));
+            full = v3_sub(full, g->vel_full[j]);
+            w = v3_sub(w, g->spin[j]);
+            inv_m += g->inv_mass[j];
+            other = grain_material(g, j);
+        }
+        t->pair[c] = grain_material(g, i) * materials + other;
+        t->m_eff[c] = 1.0 / inv_m;
+        t->vx[c] = v.x;
+        t->vy[c] = v.y;
+        t->vz[c] = v.z;
+        t->vn[c] = v3_dot(n, full); /* a wall moves in its own plane */
+        t->wx[c] = w.x;
+        t->wy[c] = w.y;
+        t->wz[c] = w.z;
+    }
+}
+
+static void load_history(const struct neighbours *nb, struct block *b)
+{
+    for (int c = 0; c < b->t.n; c++) {
+        const int slot = b->c.slot[c];
+        const double *const h = &nb->history[(size_t)slot * nb->rows];
+        const double keep = nb->live[slot] ? 1.0 : 0.0;
+        for (int k = 0; k < nb->rows; k++)
+            b->history[k][c] = keep != 0.0 ? h[k] : 0.0;
+    }
+}
+
+static void apply_laws(struct block *b)
+{
+    double(*h)[TOUCH] = b->history;
+    contact_forces(&b->t, h);
+    h += contact_history;
+    cohesion_forces(&b->t, h);
+    h += cohesion_history;
+    rolling_moments(&b->t, h);
+    h += rolling_history;
+    bond_forces(&b->t, h);
+}
+
+/* Writes the records and the history; returns the next free record. */
+static int store(struct sim *s, const struct block *b, struct report *r, int next)
+{
+    struct neighbours *const nb = &s->neighbours;
+    struct contact_work *const w = s->contacts;
+    const struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++) {
+        const int slot = b->c.slot[c];
+        if (!(t->depth[c] > -nb->reach)) {
+            nb->live[slot] = 0;
+            w->record_of[slot] = -1;
+            continue;
+        }
+        const vec3 f = v3(t->fx[c], t->fy[c], t->fz[c]), m = v3(t->mx[c], t->my[c], t->mz[c]);
+        const vec3 ai = v3(b->l.ix[c], b->l.iy[c], b->l.iz[c]);
+        const vec3 aj = v3(b->l.jx[c], b->l.jy[c], b->l.jz[c]);
+        struct record *const record = &w->record[next];
+        record->force = f;
+        record->torque_i = v3_add(v3_cross(ai, f), m);
+        record->torque_j = v3_scale(-1.0, v3_add(v3_cross(aj, f), m));
+        w->record_of[slot] = next++;
+        nb->live[slot] = 1;
+        double *const h = &nb->history[(size_t)slot * nb->rows];
+        for (int k = 0; k < nb->rows; k++)
+            h[k] = b->history[k][c];
+        r->energy += t->energy[c];
+        r->touching++;
+        const double r_j = t->r_j[c] > 0.0 ? t->r_j[c] : t->r_i[c];
+        const double overlap = t->depth[c] / fmin(t->r_i[c], r_j);
+        if (overlap > r->overlap) {
+            r->overlap = overlap;
+            r->worst = slot;
+        }
+        if (b->c.wall[c]) {
+            vec3 *const sum = &r->wall_force[b->c.wall[c] - s->walls.wall];
+            *sum = v3_sub(*sum, f);
+        } else if (s->grains.inv_mass[b->c.i[c]] == 0.0) {
+            r->skeleton_force = v3_add(r->skeleton_force, f);
+        } else if (s->grains.inv_mass[b->c.j[c]] == 0.0) {
+            r->skeleton_force = v3_sub(r->skeleton_force, f);
+        }
+    }
+    return next;
+}
+
+static int work_block(struct sim *s, struct block *b, struct report *r, int next)
+{
+    b->t.n = b->c.n;
+    b->t.dt = s->run.dt;
+    shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
+    load_motion(s, b);
+    load_history(&s->neighbours, b);
+    apply_laws(b);
+    b->c.n = 0;
+    return store(s, b, r, next);
+}
+
+/* Puts a slot into the block if its bodies are within reach; returns whether they are. */
+static bool offer(const struct sim *s, struct block *b, int slot)
+{
+    const struct grains *const g = &s->grains;
+    const int i = s->neighbours.owner[slot], j = s->neighbours.other[slot], c = b->c.n;
+    const struct wall *wall = NULL;
+    vec3 d;
+    double gap;
+    if (j >= 0) {
+        d = domain_minimum_image(&s->domain, v3_sub(g->pos[i], g->pos[j]));
+        const double cut = g->radius[i] + g->radius[j] + s->neighbours.reach;
+        gap = v3_dot(d, d) - cut * cut;
+    } else {
+        wall = &s->walls.wall[-1 - j];
+        const double above = v3_dot(v3_sub(g->pos[i], wall->point), wall->normal);
+        d = v3_scale(above, wall->normal);
+        gap = above - (g->radius[i] + s->neighbours.reach);
+    }
+    if (gap >= 0.0)
+        return false;
+    b->c.i[c] = i;
+    b->c.j[c] = j >= 0 ? j : i;
+    b->c.slot[c] = slot;
+    b->c.wall[c] = wall;
+    b->c.dx[c] = d.x;
+    b->c.dy[c] = d.y;
+    b->c.dz[c] = d.z;
+    b->c.n++;
+    return true;
+}
+
+static void work_run(struct sim *s, int run)
+{
+    struct neighbours *const nb = &s->neighbours;
+    struct report *const r = &s->contacts->report[run];
+    const int first = run * RUN;
+    const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
+    struct block b;
+    int next = nb->begin[first];
+    b.c.n = 0;
+    *r = (struct report){.worst = -1};
+    for (int slot = nb->begin[first]; slot < nb->begin[last]; slot++) {
+        if (!offer(s, &b, slot)) {
+            nb->live[slot] = 0;
+            s->contacts->record_of[slot] = -1;
+        } else if (b.c.n == TOUCH) {
+            next = work_block(s, &b, r, next);
+        }
+    }
+    if (b.c.n > 0)
+        work_block(s, &b, r, next);
+}
+
+static void die_overlap(const struct sim *s, int slot, double overlap)
+{
+    const struct grains *const g = &s->grains;
+    const int i = s->neighbours.owner[slot], j = s->neighbours.other[slot];
+    char other[64];
+    if (j < 0)
+        snprintf(other, sizeof other, "wall %s", s->walls.wall[-1 - j].name);
+    else
+        snprintf(other, sizeof other, "grain %d", g->id[j]);
+    die(EXIT_UNSTABLE,
+        "grain %d overlaps %s by %.3g of its radius at t = %.9g s, at %.6g %.6g %.6g m, speed %.3g "
+        "m/s: more than run.overlap_max = %g; take a shorter run.dt or stiffer grains",
+        g->id[i], other, overlap, s->t, g->pos[i].x, g->pos[i].y, g->pos[i].z, v3_norm(g->vel[i]),
+        s->run.overlap_max);
+}
+
+/* Impulses take half of each step's force at either end, as the kicks do. */
+static void half_impulses(struct sim *s)
+{
+    const double half = 0.5 * s->run.dt;
+    struct walls *const w = &s->walls;
+    for (int k = 0; k < w->n; k++)
+        w->wall[k].impulse = v3_axpy(w->wall[k].impulse, half, w->wall[k].force);
+    w->skeleton_impulse = v3_axpy(w->skeleton_impulse, half, w->skeleton_force);
+}
+
+/* Adds the reports of the runs, in their order. */
+static void collect(struct sim *s)
+{
+    struct contact_work *const w = s->contacts;
+    int worst = -1;
+    s->overlap = s->elastic = 0.0;
+    s->neighbours.touching = 0;
+    s->walls.skeleton_force = v3(0.0, 0.0, 0.0);
+    for (int k = 0; k < s->walls.n; k++)
+        s->walls.wall[k].force = v3(0.0, 0.0, 0.0);
+    for (int run = 0; run < w->runs; run++) {
+        const struct report *const r = &w->report[run];
+        s->elastic += r->energy;
+        s->neighbours.touching += r->touching;
+        if (r->overlap > s->overlap) {
+            s->overlap = r->overlap;
+            worst = r->worst;
+        }
+        for (int k = 0; k < s->walls.n; k++)
+            s->walls.wall[k].force = v3_add(s->walls.wall[k].force, r->wall_force[k]);
+        s->walls.skeleton_force = v3_add(s->walls.skeleton_force, r->skeleton_force);
+    }
+    if (s->overlap > s->run.overlap_max)
+        die_overlap(s, worst, s->overlap);
+}
+
+void contact_loop(struct sim *s)
+{
+    make_room(s);
+    half_impulses(s);
+#pragma omp parallel for schedule(static)
+    for (int run = 0; run < s->contacts->runs; run++)
+        work_run(s, run);
+    collect(s);
+    half_impulses(s);
+}
+
+void contact_gather(struct sim *s)
+{
+    struct grains *const g = &s->grains;
+    const struct neighbours *const nb = &s->neighbours;
+    const struct record *const record = s->contacts->record;
+    const int *const record_of = s->contacts->record_of;
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < g->n; i++) {
+        vec3 force = g->load[i], torque = g->load_torque[i];
+        for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++) {
+            const int k = record_of[t];
+            if (k < 0)
+                continue;
+            force = v3_add(force, record[k].force);
+            torque = v3_add(torque, record[k].torque_i);
+        }
+        for (int t = nb->begin_in[i]; t < nb->begin_in[i + 1]; t++) {
+            const int k = record_of[nb->slots_in[t]];
+            if (k < 0)
+                continue;
+            force = v3_sub(force, record[k].force);
+            torque = v3_add(torque, record[k].torque_j);
+        }
+        g->force[i] = force;
+        g->torque[i] = torque;
+    }
+}

@@ -1,0 +1,382 @@
+/* coupling.c - the exchange between grains and fluid, see coupling.h for the equations.
+ *
+ * Sums to the grid go in the order of the grains: every thread walks all shares and adds those of
+ * its own slab of cells, so the bits do not depend on the number of threads. */
+#include "coupling.h"
+
+#include <omp.h>
+#include <string.h>
+#include "../drag/drag.h"
+#include "sim.h"
+
+const struct key coupling_keys[] = {
+    {"coupling", "ways", KEY_CHOICE, "", "two | one", "two",
+     "one: the fluid does not feel the grains"},
+    {"coupling", "drag", KEY_CHOICE, "", "implicit | explicit", "implicit",
+     "treatment of the drag on the grains; explicit is stable for fluid.dt below m/kappa only"},
+    {"coupling", "pressure_gradient", KEY_CHOICE, "", "off | on", "on",
+     "force -V grad p on the grains (p without its hydrostatic part)"},
+    {"coupling", "viscous", KEY_CHOICE, "", "off | on", "on", "force V div tau on the grains"},
+    {"coupling", "buoyancy", KEY_CHOICE, "", "off | on", "on", "force -rho_f V g on the grains"},
+    {"coupling", "porosity_min", KEY_REAL, "1", "[0, 1)", "0.05",
+     "a smaller fluid fraction in a cell stops the run"},
+    {0},
+};
+
+void coupling_create(struct sim *s, struct scene *scene)
+{
+    struct coupling *const c = &s->coupling;
+    scene_declare(scene, coupling_keys);
+    c->ways = scene_choice(scene, "coupling", NULL, "ways") == 0 ? 2 : 1;
+    c->implicit = scene_choice(scene, "coupling", NULL, "drag") == 0;
+    c->pressure_gradient = scene_choice(scene, "coupling", NULL, "pressure_gradient") == 1;
+    c->viscous = scene_choice(scene, "coupling", NULL, "viscous") == 1;
+    c->buoyancy = scene_choice(scene, "coupling", NULL, "buoyancy") == 1;
+    c->eps_min = scene_real(scene, "coupling", NULL, "porosity_min");
+    drag_init(scene);
+    porosity_init(scene);
+    double largest = 0.0;
+    for (int i = 0; i < s->grains.n; i++)
+        largest = fmax(largest, s->grains.radius[i]);
+    const size_t n = (size_t)s->grains.capacity;
+    c->reach = s->grid.total > 0 ? porosity_reach(&s->grid, largest) : 1;
+    c->n_shares = xalloc(n, sizeof *c->n_shares);
+    c->shares = xalloc(n * (size_t)c->reach, sizeof *c->shares);
+    c->kappa = xalloc(n * (size_t)c->reach, sizeof *c->kappa);
+    c->v_ref = xalloc(n, sizeof *c->v_ref);
+    c->drag = xalloc(n, sizeof *c->drag);
+    c->vel_old = xalloc(n, sizeof *c->vel_old);
+    c->pos_load = xalloc(n, sizeof *c->pos_load);
+    c->eps = grid_field(&s->grid);
+    c->K = grid_field(&s->grid);
+    for (int a = 0; a < 3; a++) {
+        c->KV[a] = grid_field(&s->grid);
+        c->Q[a] = grid_field(&s->grid);
+        c->M[a] = grid_field(&s->grid);
+    }
+    fields_add(&s->fields, (struct field){"drag", "N", "drag force on the grain", PLACE_GRAIN,
+                                          KIND_VEC3, (void **)&c->drag, FIELD_STATE | FIELD_OUTPUT});
+    fields_add(&s->fields, (struct field){"velocity_old", "m s-1", "velocity a fluid step ago",
+                                          PLACE_GRAIN, KIND_VEC3, (void **)&c->vel_old, FIELD_STATE});
+    fields_add(&s->fields, (struct field){"position_old", "m", "position a fluid step ago",
+                                          PLACE_GRAIN, KIND_VEC3, (void **)&c->pos_load, FIELD_STATE});
+}
+
+void coupling_free(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    void *const all[] = {c->n_shares, c->shares, c->kappa, c->v_ref, c->drag,
+                         c->vel_old,  c->pos_load, c->eps, c->K};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+    for (int a = 0; a < 3; a++) {
+        xfree(c->KV[a]);
+        xfree(c->Q[a]);
+        xfree(c->M[a]);
+    }
+}
+
+/* The slab of cells [lo, hi) of this thread. */
+static void slab(const struct grid *g, int *lo, int *hi)
+{
+    const int threads = omp_get_num_threads(), me = omp_get_thread_num(), layers = g->n[2] + 2;
+    *lo = g->sk * (int)((long)layers * me / threads);
+    *hi = g->sk * (int)((long)layers * (me + 1) / threads);
+}
+
+/* out += the volume of the grains, per cell; in the order of the grains */
+static void spread_volume(const struct sim *s, double *out)
+{
+    const struct coupling *const c = &s->coupling;
+#pragma omp parallel
+    {
+        int lo, hi;
+        slab(&s->grid, &lo, &hi);
+        memset(out + lo, 0, (size_t)(hi - lo) * sizeof *out);
+        for (int i = 0; i < s->grains.n; i++) {
+            const struct share *const w = &c->shares[(size_t)i * c->reach];
+            for (int k = 0; k < c->n_shares[i]; k++)
+                if (w[k].cell >= lo && w[k].cell < hi)
+                    out[w[k].cell] += w[k].weight * s->grains.volume[i];
+        }
+    }
+}
+
+/* Means of the two cells beside each face of one direction. */
+static void face_mean(const struct sim *s, const double *cells, int a, double *faces)
+{
+    const struct grid *const g = &s->grid;
+    const int step = g->s[a];
+    const int last[3] = {g->n[0] + (a == 0), g->n[1] + (a == 1), g->n[2] + (a == 2)};
+#pragma omp parallel for schedule(static)
+    for (int k = 1; k <= last[2]; k++)
+        for (int j = 1; j <= last[1]; j++)
+            for (int i = 1; i <= last[0]; i++) {
+                const int c = cell(g, i, j, k);
+                faces[c] = 0.5 * (cells[c] + cells[c - step]);
+            }
+}
+
+static void die_full(const struct sim *s, int c)
+{
+    const struct grid *const g = &s->grid;
+    const int k = c / g->sk, j = c % g->sk / g->sj, i = c % g->sj;
+    die(EXIT_UNSTABLE,
+        "the fluid fraction of cell %d %d %d (centre %.4g %.4g %.4g m) is %.4g at t = %.9g s, below "
+        "coupling.porosity_min = %g; take larger cells, or an answer of porosity/ that spreads a "
+        "grain over cells",
+        i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], s->coupling.eps[c],
+        s->t, s->coupling.eps_min);
+}
+
+/* eps = 1 - volume / cell volume; the total against the grains' */
+static void fluid_fraction(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    const struct grid *const g = &s->grid;
+    double on_grid = 0.0, of_grains = 0.0, least = 1.0;
+    int least_cell = 0;
+    for (int i = 0; i < s->grains.n; i++)
+        of_grains += s->grains.volume[i];
+    for (int k = 1; k <= g->n[2]; k++)
+        for (int j = 1; j <= g->n[1]; j++)
+            for (int i = 1; i <= g->n[0]; i++) {
+                const int at = cell(g, i, j, k);
+                on_grid += c->K[at];
+                c->eps[at] = porosity_displaces ? 1.0 - c->K[at] / g->volume : 1.0;
+                if (c->eps[at] < least) {
+                    least = c->eps[at];
+                    least_cell = at;
+                }
+            }
+    c->eps_least = least;
+    c->volume_error = of_grains > 0.0 ? fabs(on_grid / of_grains - 1.0) : 0.0;
+    if (least < c->eps_min)
+        die_full(s, least_cell);
+    grid_ghosts(g, &s->domain, c->eps);
+}
+
+void coupling_volume(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    struct fluid *const f = &s->fluid;
+    const struct grid *const g = &s->grid;
+#pragma omp parallel for schedule(dynamic, 64)
+    for (int i = 0; i < s->grains.n; i++)
+        c->n_shares[i] =
+            porosity_shares(g, &s->domain, &s->grains, i, &c->shares[(size_t)i * c->reach]);
+    spread_volume(s, c->K);
+    fluid_fraction(s);
+    memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
+    if (c->ways == 2)
+        memcpy(f->eps, c->eps, g->total * sizeof *f->eps);
+    else
+        for (size_t k = 0; k < g->total; k++)
+            f->eps[k] = 1.0;
+    if (c->calls == 0) {
+        memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
+        memcpy(c->vel_old, s->grains.vel, (size_t)s->grains.n * sizeof(vec3));
+    }
+    for (int a = 0; a < 3; a++)
+        face_mean(s, f->eps, a, f->eps_f[a]);
+}
+
+/* Q and M of coupling.h: what a grain at rest or moving feels in each cell, from the faces. */
+static void sense_cells(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    const struct fluid *const f = &s->fluid;
+    const struct grid *const g = &s->grid;
+    for (int a = 0; a < 3; a++) {
+        const int step = g->s[a];
+#pragma omp parallel for schedule(static)
+        for (int k = 1; k <= g->n[2]; k++)
+            for (int j = 1; j <= g->n[1]; j++)
+                for (int i = 1; i <= g->n[0]; i++) {
+                    const int at = cell(g, i, j, k), up = at + step;
+                    const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
+                    const double hi = 0.5 * (c->eps[at] + c->eps[up]);
+                    const double flow_lo = f->eps_f[a][at] * f->u[a][at];
+                    const double flow_hi = f->eps_f[a][up] * f->u[a][up];
+                    c->Q[a][at] = 0.5 * (lo * flow_lo + hi * flow_hi);
+                    c->M[a][at] = 0.5 * (lo * lo + hi * hi);
+                }
+    }
+}
+
+/* Superficial velocity of a cell. */
+static vec3 superficial(const struct sim *s, int at)
+{
+    const struct fluid *const f = &s->fluid;
+    double u[3];
+    for (int a = 0; a < 3; a++) {
+        const int up = at + s->grid.s[a];
+        u[a] = 0.5 * (f->eps_f[a][at] * f->u[a][at] + f->eps_f[a][up] * f->u[a][up]);
+    }
+    return v3(u[0], u[1], u[2]);
+}
+
+/* kappa' and v' of one grain; returns theta. */
+static double grain_drag(struct sim *s, int i)
+{
+    struct coupling *const c = &s->coupling;
+    const struct grains *const g = &s->grains;
+    const struct share *const w = &c->shares[(size_t)i * c->reach];
+    double *const kappa = &c->kappa[(size_t)i * c->reach];
+    const double diameter = cbrt(6.0 / 3.14159265358979323846 * g->volume[i]);
+    double total = 0.0;
+    for (int k = 0; k < c->n_shares[i]; k++) {
+        const double eps = c->eps[w[k].cell];
+        const vec3 u = v3_scale(1.0 / eps, superficial(s, w[k].cell));
+        kappa[k] = drag_kappa(eps, v3_norm(v3_sub(u, g->vel[i])), diameter, s->fluid.rho,
+                              s->fluid.mu);
+        total += w[k].weight * kappa[k];
+    }
+    const double theta = s->fluid.dt * total * g->inv_mass[i];
+    c->v_ref[i] = g->vel[i];
+    if (c->implicit && theta > 0.0) {
+        const vec3 dv = v3_sub(g->vel[i], c->vel_old[i]);
+        c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), -s->fluid.dt * g->inv_mass[i], c->drag[i]);
+        for (int k = 0; k < c->n_shares[i]; k++)
+            kappa[k] /= 1.0 + theta;
+    }
+    return theta;
+}
+
+/* K and KV: kappa'/eps^2 and that times v', per cell, in the order of the grains. */
+static void spread_drag(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+#pragma omp parallel
+    {
+        int lo, hi;
+        slab(&s->grid, &lo, &hi);
+        double *const out[4] = {c->K, c->KV[0], c->KV[1], c->KV[2]};
+        for (int q = 0; q < 4; q++)
+            memset(out[q] + lo, 0, (size_t)(hi - lo) * sizeof(double));
+        for (int i = 0; i < s->grains.n; i++) {
+            const struct share *const w = &c->shares[(size_t)i * c->reach];
+            for (int k = 0; k < c->n_shares[i]; k++) {
+                const int at = w[k].cell;
+                if (at < lo || at >= hi)
+                    continue;
+                const double part =
+                    w[k].weight * c->kappa[(size_t)i * c->reach + k] / (c->eps[at] * c->eps[at]);
+                c->K[at] += part;
+                c->KV[0][at] += part * c->v_ref[i].x;
+                c->KV[1][at] += part * c->v_ref[i].y;
+                c->KV[2][at] += part * c->v_ref[i].z;
+            }
+        }
+    }
+}
+
+/* B = m^2 mean(K)/V, S = m^2 mean(KV)/V on faces */
+static void drag_on_faces(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    struct fluid *const f = &s->fluid;
+    const size_t total = s->grid.total;
+    const double inverse = 1.0 / s->grid.volume;
+    grid_ghosts(&s->grid, &s->domain, c->K);
+    for (int a = 0; a < 3; a++) {
+        grid_ghosts(&s->grid, &s->domain, c->KV[a]);
+        face_mean(s, c->K, a, f->drag[a]);
+        face_mean(s, c->KV[a], a, f->drag_s[a]);
+        for (size_t k = 0; k < total; k++) {
+            const double m2 = f->eps_f[a][k] * f->eps_f[a][k] * inverse;
+            f->drag[a][k] *= m2;
+            f->drag_s[a][k] *= m2;
+        }
+    }
+}
+
+void coupling_drag(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    double relaxation = 0.0;
+#pragma omp parallel for schedule(dynamic, 64) reduction(max : relaxation)
+    for (int i = 0; i < s->grains.n; i++)
+        relaxation = fmax(relaxation, grain_drag(s, i));
+    c->relaxation = relaxation;
+    if (!c->implicit && relaxation > 2.0)
+        die(EXIT_UNSTABLE,
+            "explicit drag is unstable at t = %.9g s: fluid.dt is %.3g of a grain's relaxation time "
+            "m/kappa (2 at most); take a shorter fluid.dt or coupling.drag = implicit",
+            s->t, relaxation);
+    if (c->ways == 1)
+        return; /* B and S stay zero */
+    spread_drag(s);
+    drag_on_faces(s);
+}
+
+/* Drag and stress force on one grain. */
+static vec3 grain_load(struct sim *s, int i)
+{
+    struct coupling *const c = &s->coupling;
+    const struct grains *const g = &s->grains;
+    const struct share *const w = &c->shares[(size_t)i * c->reach];
+    const double v[3] = {c->v_ref[i].x, c->v_ref[i].y, c->v_ref[i].z};
+    double drag[3] = {0.0, 0.0, 0.0}, stress[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < c->n_shares[i]; k++) {
+        const int at = w[k].cell;
+        const double part =
+            w[k].weight * c->kappa[(size_t)i * c->reach + k] / (c->eps[at] * c->eps[at]);
+        for (int a = 0; a < 3; a++) {
+            const double *const G = s->fluid.stress[a];
+            drag[a] += part * (c->Q[a][at] - v[a] * c->M[a][at]);
+            stress[a] += w[k].weight * 0.5 * (G[at] + G[at + s->grid.s[a]]);
+        }
+    }
+    c->drag[i] = v3(drag[0], drag[1], drag[2]);
+    const double volume = c->pressure_gradient ? g->volume[i] : 0.0;
+    return v3_axpy(c->drag[i], volume, v3(stress[0], stress[1], stress[2]));
+}
+
+/* What the fluid loses to the grains, from the faces: B u - S and the grains' share of the stress */
+static vec3 lost_by_fluid(const struct sim *s)
+{
+    const struct fluid *const f = &s->fluid;
+    const struct grid *const g = &s->grid;
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < 3; a++) {
+        const bool open = !s->domain.periodic[a];
+        const int last[3] = {g->n[0] + (a == 0 && open), g->n[1] + (a == 1 && open),
+                             g->n[2] + (a == 2 && open)};
+        for (int k = 1; k <= last[2]; k++)
+            for (int j = 1; j <= last[1]; j++)
+                for (int i = 1; i <= last[0]; i++) {
+                    const int at = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
+                    const double part = open && (n == 1 || n == g->n[a] + 1) ? 0.5 : 1.0;
+                    double lost = f->drag[a][at] * f->u[a][at] - f->drag_s[a][at];
+                    if (s->coupling.pressure_gradient)
+                        lost += (1.0 - f->eps_f[a][at]) * f->stress[a][at];
+                    sum[a] += part * g->volume * lost;
+                }
+    }
+    return v3(sum[0], sum[1], sum[2]);
+}
+
+void coupling_load(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    struct grains *const g = &s->grains;
+    const double buoyant = c->buoyancy ? -s->fluid.rho : 0.0;
+    sense_cells(s);
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < g->n; i++) {
+        const vec3 exchanged = grain_load(s, i);
+        const vec3 load = v3_axpy(exchanged, buoyant * g->volume[i], s->domain.gravity);
+        /* the force at hand holds the old load */
+        g->force[i] = v3_add(g->force[i], v3_sub(load, g->load[i]));
+        g->load[i] = load;
+        c->vel_old[i] = g->vel[i];
+        c->pos_load[i] = g->pos[i];
+        c->v_ref[i] = exchanged; /* not needed any more: kept for the sum below */
+    }
+    c->to_grains = v3(0.0, 0.0, 0.0);
+    for (int i = 0; i < g->n; i++)
+        c->to_grains = v3_add(c->to_grains, c->v_ref[i]);
+    c->from_fluid = c->ways == 2 ? lost_by_fluid(s) : c->to_grains;
+    c->calls++;
+}

@@ -1,0 +1,193 @@
+/* feasibility.c - the limits of a scene before it runs.
+ *
+ * Contact loop: velocity Verlet is stable for dt < 2/omega; a single contact lasts pi/omega, and a
+ * grain with several of them is stiffer by their number, so a quarter of a contact's duration is
+ * the limit set here. The duration is that at the highest expected speed: run.speed, or else the
+ * fastest start plus a free fall through the box. */
+#include "feasibility.h"
+
+#include "../contact/contact.h"
+#include "../drag/drag.h"
+#include "sim.h"
+
+#define PART_OF_CONTACT 0.25
+
+void feasibility_add(struct feasibility *f, const char *name, const char *unit, double used,
+                     double limit, bool binding, const char *note)
+{
+    if (f->n == FEASIBILITY_LINES)
+        return;
+    snprintf(f->line[f->n].name, sizeof f->line[0].name, "%s", name);
+    snprintf(f->line[f->n].unit, sizeof f->line[0].unit, "%s", unit);
+    snprintf(f->line[f->n].note, sizeof f->line[0].note, "%s", note);
+    f->line[f->n].limit = limit;
+    f->line[f->n].used = used;
+    f->line[f->n].binding = binding;
+    f->n++;
+}
+
+/* m/s; see the head */
+static double expected_speed(const struct sim *s)
+{
+    if (s->run.speed > 0.0)
+        return s->run.speed;
+    const struct grains *const g = &s->grains;
+    const double gravity[3] = {s->domain.gravity.x, s->domain.gravity.y, s->domain.gravity.z};
+    double start = 0.0, fall = 0.0, largest = 0.0;
+    for (int i = 0; i < g->n; i++) {
+        start = fmax(start, v3_norm(g->vel[i]));
+        largest = fmax(largest, 2.0 * g->radius[i]);
+    }
+    for (int a = 0; a < 3; a++)
+        fall += fabs(gravity[a]) * (s->domain.periodic[a] ? 10.0 * largest : s->domain.size[a]);
+    return sqrt(start * start + 2.0 * fall);
+}
+
+/* The first grain of each species that moves, or -1. */
+static int grain_of_species(const struct sim *s, int species)
+{
+    for (int i = 0; i < s->grains.n; i++)
+        if (s->grains.kind[i] == species && s->grains.inv_mass[i] > 0.0)
+            return i;
+    return -1;
+}
+
+static double species_duration(const struct sim *s, int i)
+{
+    const struct grains *const g = &s->grains;
+    const int m = grain_material(g, i);
+    const double v = fmax(expected_speed(s), 1e-9);
+    double shortest = contact_duration(m, m, 0.5 * g->mass[i], 0.5 * g->radius[i], v);
+    for (int k = 0; k < s->walls.n; k++)
+        shortest = fmin(shortest, contact_duration(m, s->walls.wall[k].material, g->mass[i],
+                                                   g->radius[i], v));
+    return shortest;
+}
+
+double feasibility_grain_limit(const struct sim *s)
+{
+    double limit = (double)INFINITY;
+    for (int k = 0; k < s->grains.n_species; k++) {
+        const int i = grain_of_species(s, k);
+        if (i < 0)
+            continue;
+        const struct species *const sp = &s->grains.species[k];
+        limit = fmin(limit, contact_rayleigh(sp->material, s->grains.radius[i], sp->density));
+        limit = fmin(limit, PART_OF_CONTACT * species_duration(s, i));
+    }
+    return limit;
+}
+
+static void contact_lines(const struct sim *s, struct feasibility *f)
+{
+    char name[64], note[96];
+    for (int k = 0; k < s->grains.n_species; k++) {
+        const int i = grain_of_species(s, k);
+        if (i < 0)
+            continue;
+        const struct species *const sp = &s->grains.species[k];
+        const double rayleigh = contact_rayleigh(sp->material, s->grains.radius[i], sp->density);
+        const double duration = species_duration(s, i);
+        if (isfinite(rayleigh)) {
+            snprintf(name, sizeof name, "Rayleigh's step, %.32s", sp->name);
+            feasibility_add(f, name, "s", s->run.dt, rayleigh, true, "0.1 to 0.3 is usual");
+        }
+        if (isfinite(duration)) {
+            snprintf(name, sizeof name, "a quarter of a contact, %.32s", sp->name);
+            snprintf(note, sizeof note, "at %.3g m/s", expected_speed(s));
+            feasibility_add(f, name, "s", s->run.dt, PART_OF_CONTACT * duration, true, note);
+        }
+    }
+}
+
+/* Relaxation of each species in a dense bed, the harder case. */
+static void relaxation_lines(const struct sim *s, struct feasibility *f)
+{
+    char name[64];
+    for (int k = 0; k < s->grains.n_species; k++) {
+        const int i = grain_of_species(s, k);
+        if (i < 0)
+            continue;
+        const double speed = fmax(s->flow.velocity, s->flow.velocity_end) / 0.4;
+        const double kappa = drag_kappa(0.4, speed, s->grains.species[k].diameter, s->fluid.rho,
+                                        s->fluid.mu);
+        if (!(kappa > 0.0))
+            continue;
+        snprintf(name, sizeof name, "drag relaxation, %.32s", s->grains.species[k].name);
+        feasibility_add(f, name, "s", s->fluid.dt, s->grains.mass[i] / kappa,
+                        !s->coupling.implicit,
+                        s->coupling.implicit ? "implicit: accuracy only, at porosity 0.4"
+                                             : "explicit, at porosity 0.4");
+    }
+}
+
+static void grid_lines(const struct sim *s, struct feasibility *f)
+{
+    const struct grains *const g = &s->grains;
+    double d = 0.0;
+    for (int i = 0; i < g->n; i++)
+        d = fmax(d, 2.0 * g->radius[i]);
+    const double h = fmin(s->grid.h[0], fmin(s->grid.h[1], s->grid.h[2]));
+    const double cells = (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
+    if (g->n == 0)
+        return;
+    feasibility_add(f, "grain diameter over cell", "1", d / h, 1.0, false,
+                    "cells of 2 d and more give smooth porosities");
+    feasibility_add(f, "grains per cell", "1", g->n / cells, (double)INFINITY, false, "mean");
+}
+
+static double memory(const struct sim *s)
+{
+    const double cells = (double)s->grid.total;
+    return 1100.0 * s->grains.n + 300.0 * cells;
+}
+
+void feasibility_fill(const struct sim *s, struct feasibility *f)
+{
+    f->n = 0;
+    contact_lines(s, f);
+    if (s->fluid.exists) {
+        if (s->grains.n > 0)
+            relaxation_lines(s, f);
+        fluid_feasibility(s, f);
+        grid_lines(s, f);
+    }
+}
+
+void feasibility_print(FILE *out, const struct sim *s, const struct feasibility *f)
+{
+    double most = 0.0;
+    int worst = -1;
+    fprintf(out, "%-40s %12s %12s %8s\n", "limit", "used", "limit", "ratio");
+    for (int i = 0; i < f->n; i++) {
+        const double ratio = f->line[i].used / f->line[i].limit;
+        char used[32], limit[32];
+        snprintf(used, sizeof used, "%.4g %s", f->line[i].used, f->line[i].unit);
+        snprintf(limit, sizeof limit, "%.4g %s", f->line[i].limit, f->line[i].unit);
+        fprintf(out, "%-40s %12s %12s %8.3g  %s%s\n", f->line[i].name, used, limit, ratio,
+                f->line[i].binding && ratio > 1.0 ? "TOO LONG; " : "", f->line[i].note);
+        if (f->line[i].binding && ratio > most) {
+            most = ratio;
+            worst = i;
+        }
+    }
+    if (worst >= 0)
+        fprintf(out, "nearest limit: %s, at %.3g of it\n", f->line[worst].name, most);
+    fprintf(out, "grains %d, cells %.0f, sub-steps %d per step, steps %.0f, memory about %.3g MiB\n",
+            s->grains.n, (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2], s->run.substeps,
+            ceil(s->run.end / (s->run.dt * s->run.substeps)), memory(s) / 1048576.0);
+}
+
+void feasibility_enforce(const struct sim *s, struct scene *scene, const struct feasibility *f)
+{
+    if (s->run.force)
+        return;
+    for (int i = 0; i < f->n; i++) {
+        if (!f->line[i].binding || !(f->line[i].used > f->line[i].limit * (1.0 + 1e-9)))
+            continue;
+        const bool grains = i < f->n && f->line[i].used == s->run.dt;
+        scene_error(scene, grains ? "run" : "fluid", NULL, "dt",
+                    "%s allows %.4g %s at most, %.4g is used (run.force = on runs it all the same)",
+                    f->line[i].name, f->line[i].limit, f->line[i].unit, f->line[i].used);
+    }
+}

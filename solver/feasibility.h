@@ -1,0 +1,37 @@
+/* feasibility.h - can this scene run? Every limit as a ratio, the smallest named.
+ *
+ * A line says: what the limit is, its value, the value used, used/limit. Above 1 the scene is
+ * refused (exit 2) unless [run] force = on. */
+#ifndef FEASIBILITY_H
+#define FEASIBILITY_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+enum { FEASIBILITY_LINES = 40 };
+
+struct feasibility {
+    int n;
+    struct {
+        char name[64];   /* "Rayleigh's step, beads" */
+        char unit[16];
+        double limit, used;
+        bool binding;    /* above 1 means refused; otherwise advice only */
+        char note[96];
+    } line[FEASIBILITY_LINES];
+};
+
+void feasibility_add(struct feasibility *f, const char *name, const char *unit, double used,
+                     double limit, bool binding, const char *note);
+
+struct sim;
+struct scene;
+/* s; the shortest limit of the contact loop: Rayleigh's step, or a quarter of the duration of a
+ * contact at the highest expected speed; INFINITY if nothing touches. */
+double feasibility_grain_limit(const struct sim *s);
+void feasibility_fill(const struct sim *s, struct feasibility *f);
+void feasibility_print(FILE *out, const struct sim *s, const struct feasibility *f);
+/* Puts broken binding limits on the scene's list of errors. */
+void feasibility_enforce(const struct sim *s, struct scene *scene, const struct feasibility *f);
+
+#endif

@@ -1,0 +1,56 @@
+/* solver/fluid/fluid.h - contract: what flows?
+ *
+ * To add a solver: copy none.c to solver/fluid/NAME.c. Every answer exports exactly the symbols
+ * below. The three verbs are those of step.c:
+ *   fluid_sense  the grains as the grid sees them: fluid fraction and drag coefficients
+ *   fluid_step   the fields advance by fluid.dt, to the positions of the grains at hand
+ *   fluid_load   the force of the fluid on each grain, constant over the sub-steps that follow
+ * A solver calls coupling.h for the exchange with the grains; `none` refers to nothing, so that a
+ * dry binary links neither the coupling nor FFTW. */
+#ifndef FLUID_H
+#define FLUID_H
+
+#include "../grid.h"
+
+struct sim;
+
+struct fluid {
+    bool exists;       /* false: the `none` answer */
+    bool on;           /* it flows (t >= flow.start) */
+    double rho, mu;    /* kg/m3, Pa s */
+    double dt;         /* s, fluid step */
+    double *u[3];      /* m/s, interstitial velocity on faces (low face of the cell) */
+    double *p;         /* Pa at centres, without the hydrostatic part */
+    double *eps;       /* fluid fraction at centres, ghosts filled */
+    double *eps_old;   /* the same at the step before */
+    double *eps_f[3];  /* fluid fraction on faces: mean of the two cells; that of the one cell
+                          inside on a face of the boundary */
+    double *drag[3];   /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
+    double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
+    double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the rest */
+    int iterations;    /* of the last pressure solve */
+    double residual;   /* relative, of the last pressure solve */
+    double divergence; /* largest |d(eps)/dt + div(eps u)| h / U after the last step */
+    double courant;    /* largest u dt / h at the last step */
+};
+
+extern const struct about fluid_about;
+extern const struct key fluid_keys[];
+
+/* Reads its keys and allocates its fields (s->fluid, s->grid), registers them (s->fields). */
+void fluid_create(struct sim *s, struct scene *scene);
+void fluid_free(struct sim *s);
+
+void fluid_sense(struct sim *s);
+void fluid_step(struct sim *s);
+void fluid_load(struct sim *s);
+
+/* Pressure [Pa] at the boundary face next to cell c of side `side`, by the momentum balance of
+ * the half cell; mean over the side. */
+double fluid_side_pressure(const struct sim *s, int side);
+
+/* Lines of the feasibility report, see feasibility.h. */
+struct feasibility;
+void fluid_feasibility(const struct sim *s, struct feasibility *f);
+
+#endif

@@ -1,0 +1,177 @@
+/* grains.c - species and materials of a scene, and the arrays of the grains. */
+#include "grains.h"
+
+#include <string.h>
+#include "../shapes/shape.h"
+#include "fill.h"
+#include "sim.h"
+
+#define FILLS "lattice | random | settle | unit_cell | point | file"
+
+const struct key grains_keys[] = {
+    {"grains", "diameter", KEY_REAL, "m", "(0, inf)", NULL, "volume-equivalent diameter"},
+    {"grains", "density", KEY_REAL, "kg m-3", "(0, inf)", NULL, "density of the solid"},
+    {"grains", "count", KEY_INT, "", "[0, 100000000]", "1",
+     "how many (unit_cell and file: as many as there are)"},
+    {"grains", "fill", KEY_CHOICE, "", FILLS, "lattice", "how the grains are placed"},
+    {"grains", "frozen", KEY_CHOICE, "", "no | yes", "no", "a fixed skeleton that never moves"},
+    {"grains", "material", KEY_TEXT, "", "", "", "its material; default: the species' own name"},
+    {"grains", "from", KEY_VECTOR, "m", "box | (-inf, inf)", "box", "lowest corner of its region"},
+    {"grains", "to", KEY_VECTOR, "m", "box | (-inf, inf)", "box", "highest corner of its region"},
+    {"grains", "position", KEY_VECTOR, "m", "centre | (-inf, inf)", "centre",
+     "centre of the grain for fill = point; centre: that of the region"},
+    {"grains", "spacing", KEY_REAL, "m", "auto | (0, inf)", "auto",
+     "edge of the lattice (auto: 1.05 d) or of the unit cell (auto: neighbours touch)"},
+    {"grains", "cell", KEY_CHOICE, "", "simple_cubic | bcc | fcc", "simple_cubic",
+     "unit cell for fill = unit_cell"},
+    {"grains", "file", KEY_TEXT, "", "", "",
+     "for fill = file: a run.nc of silt (its last grains), or text with x y z diameter in m a line"},
+    {"grains", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s", "at the start"},
+    {"grains", "spin", KEY_VECTOR, "rad s-1", "(-inf, inf)", "0 0 0 rad/s", "at the start"},
+    {0},
+};
+
+static int find_material(struct grains *g, const char *name)
+{
+    for (int m = 0; m < g->n_materials; m++)
+        if (strcmp(g->materials[m].name, name) == 0)
+            return m;
+    return -1;
+}
+
+static int add_material(struct grains *g, const char *name)
+{
+    g->materials = xrealloc(g->materials, (size_t)g->n_materials, (size_t)g->n_materials + 1,
+                            sizeof *g->materials);
+    snprintf(g->materials[g->n_materials].name, NAME_LENGTH, "%s", name);
+    return g->n_materials++;
+}
+
+/* Materials: those of the species in order, then the other [material] sections (walls). */
+static void read_species(struct sim *s, struct scene *scene)
+{
+    struct grains *const g = &s->grains;
+    const char *const *names;
+    g->n_species = scene_names(scene, "grains", &names);
+    g->species = xalloc((size_t)g->n_species + 1, sizeof *g->species);
+    for (int i = 0; i < g->n_species; i++) {
+        struct species *const sp = &g->species[i];
+        if (strlen(names[i]) >= NAME_LENGTH)
+            scene_error(scene, "grains", names[i], NULL, "the name must be shorter than %d letters",
+                        NAME_LENGTH);
+        snprintf(sp->name, NAME_LENGTH, "%.*s", NAME_LENGTH - 1, names[i]);
+        sp->diameter = scene_real(scene, "grains", names[i], "diameter");
+        sp->density = scene_real(scene, "grains", names[i], "density");
+        sp->count = scene_int(scene, "grains", names[i], "count");
+        sp->frozen = scene_choice(scene, "grains", names[i], "frozen") == 1;
+        const char *material = scene_text(scene, "grains", names[i], "material");
+        if (material[0] == '\0')
+            material = sp->name;
+        sp->material = find_material(g, material);
+        if (sp->material < 0)
+            sp->material = add_material(g, material);
+    }
+    const char *const *others;
+    const int n = scene_names(scene, "material", &others);
+    for (int i = 0; i < n; i++)
+        if (find_material(g, others[i]) < 0)
+            add_material(g, others[i]);
+}
+
+static void register_fields(struct sim *s)
+{
+    struct grains *const g = &s->grains;
+    const int state = FIELD_STATE, both = FIELD_STATE | FIELD_OUTPUT;
+    const struct field list[] = {
+        {"grain_id", "1", "identity of the grain", PLACE_GRAIN, KIND_INT, (void **)&g->id, state},
+        {"species", "1", "index of the species", PLACE_GRAIN, KIND_INT, (void **)&g->kind, state},
+        {"position", "m", "centre of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->pos, both},
+        {"velocity", "m s-1", "velocity of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->vel,
+         both},
+        {"velocity_full", "m s-1", "predicted velocity for dashpots", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->vel_full, state},
+        {"spin", "rad s-1", "angular velocity of the grain", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->spin, both},
+        {"force", "N", "force on the grain without its weight", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->force, both},
+        {"torque", "N m", "torque on the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->torque,
+         state},
+        {"fluid_load", "N", "force of the fluid on the grain", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->load, state},
+        {"fluid_torque", "N m", "torque of the fluid on the grain", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->load_torque, state},
+        {"radius", "m", "bounding radius", PLACE_GRAIN, KIND_REAL, (void **)&g->radius, state},
+        {"mass", "kg", "mass", PLACE_GRAIN, KIND_REAL, (void **)&g->mass, state},
+        {"inverse_mass", "kg-1", "0 for a frozen grain", PLACE_GRAIN, KIND_REAL,
+         (void **)&g->inv_mass, state},
+        {"inverse_inertia", "kg-1 m-2", "0 for a frozen grain", PLACE_GRAIN, KIND_REAL,
+         (void **)&g->inv_inertia, state},
+        {"grain_volume", "m3", "volume", PLACE_GRAIN, KIND_REAL, (void **)&g->volume, state},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++)
+        fields_add(&s->fields, list[i]);
+}
+
+static void allocate(struct grains *g, int n)
+{
+    g->n = g->capacity = n;
+    g->id = xalloc((size_t)n, sizeof *g->id);
+    g->kind = xalloc((size_t)n, sizeof *g->kind);
+    vec3 **const vectors[] = {&g->pos,   &g->vel,    &g->vel_full, &g->spin,
+                              &g->force, &g->torque, &g->load,     &g->load_torque};
+    double **const numbers[] = {&g->radius, &g->mass, &g->inv_mass, &g->inv_inertia, &g->volume};
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
+        *vectors[i] = xalloc((size_t)n, sizeof(vec3));
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        *numbers[i] = xalloc((size_t)n, sizeof(double));
+}
+
+static void make_bodies(struct grains *g, struct scene *scene, const struct placed *placed)
+{
+    const char *const *names;
+    scene_names(scene, "grains", &names);
+    for (int i = 0; i < g->n; i++) {
+        const struct placed *const p = &placed[i];
+        const struct species *const sp = &g->species[p->species];
+        g->id[i] = i;
+        g->kind[i] = p->species;
+        g->pos[i] = p->pos;
+        shape_body(g, i, p->diameter, sp->density);
+        if (sp->frozen) {
+            g->inv_mass[i] = g->inv_inertia[i] = 0.0;
+            g->n_frozen++;
+        } else {
+            g->vel[i] = scene_vector(scene, "grains", names[p->species], "velocity");
+            g->spin[i] = scene_vector(scene, "grains", names[p->species], "spin");
+        }
+    }
+}
+
+void grains_create(struct sim *s, struct scene *scene)
+{
+    struct grains *const g = &s->grains;
+    scene_declare(scene, grains_keys);
+    read_species(s, scene);
+    struct placed *placed = NULL;
+    /* Placing grains needs sound numbers: with errors on the list they stay out. */
+    const int n = scene_errors(scene) == 0 ? fill(s, scene, &placed) : 0;
+    allocate(g, n);
+    make_bodies(g, scene, placed);
+    for (int i = 0; i < g->n_species; i++)
+        g->species[i].count = 0;
+    for (int i = 0; i < n; i++)
+        g->species[g->kind[i]].count++;
+    register_fields(s);
+    xfree(placed);
+}
+
+void grains_free(struct sim *s)
+{
+    struct grains *const g = &s->grains;
+    void *const all[] = {g->vel_full, g->id,     g->kind,        g->pos,    g->vel,     g->spin,
+                         g->force,  g->torque,      g->load,   g->load_torque, g->radius,
+                         g->mass,   g->inv_mass,    g->inv_inertia, g->volume, g->species,
+                         g->materials};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+}

@@ -1,0 +1,192 @@
+/* main.c - silt SCENE [section.key=value ...] [-o DIR] [-j THREADS] [--check]
+ *
+ * Reads the scene as a whole, refuses it with every reason at once (exit 2), or runs it. The scene
+ * must ask for the answers that this binary holds; ./run.sh builds the binary for the scene. */
+#include <omp.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include "../reference/reference.h"
+#include "feasibility.h"
+#include "fill.h"
+#include "output.h"
+#include "progress.h"
+#include "settle.h"
+#include "sim.h"
+#include "step.h"
+
+static volatile sig_atomic_t caught; /* signal that asks the run to stop */
+
+struct options {
+    const char *scene, *directory;
+    int threads;
+    bool check;
+    int n_overrides;
+    char **overrides;
+};
+
+static void on_signal(int which)
+{
+    caught = which;
+}
+
+static _Noreturn void usage(const char *why, const char *what)
+{
+    fprintf(stderr, "silt: %s%s\nusage: silt SCENE [section.key=value ...] [-o DIR] [-j THREADS] "
+                    "[--check]\n", why, what);
+    exit(EXIT_SCENE);
+}
+
+static struct options parse(int argc, char **argv)
+{
+    struct options o = {.overrides = xalloc((size_t)argc, sizeof(char *))};
+    for (int i = 1; i < argc; i++) {
+        const bool last = i + 1 == argc;
+        if (strcmp(argv[i], "-o") == 0 && !last) {
+            o.directory = argv[++i];
+        } else if (strcmp(argv[i], "-j") == 0 && !last) {
+            char *end;
+            const long n = strtol(argv[++i], &end, 10);
+            if (*end != '\0' || n < 1 || n > 1024)
+                usage("-j takes a number of threads, 1 to 1024, not ", argv[i]);
+            o.threads = (int)n;
+        } else if (strcmp(argv[i], "--check") == 0) {
+            o.check = true;
+        } else if (argv[i][0] == '-') {
+            usage("no such option, or one without its value: ", argv[i]);
+        } else if (strchr(argv[i], '=')) {
+            o.overrides[o.n_overrides++] = argv[i];
+        } else if (!o.scene) {
+            o.scene = argv[i];
+        } else {
+            usage("one scene only, not also ", argv[i]);
+        }
+    }
+    if (!o.scene)
+        usage("which scene?", "");
+    return o;
+}
+
+/* "out/bed" for scenes/bed.ini */
+static char *default_directory(const char *scene)
+{
+    const char *const slash = strrchr(scene, '/'), *const name = slash ? slash + 1 : scene;
+    const char *const dot = strrchr(name, '.');
+    return xprintf("out/%.*s", (int)(dot ? dot - name : (long)strlen(name)), name);
+}
+
+static struct sim *running; /* for the last words of a run that dies */
+
+static void last_words(int code, const char *message)
+{
+    if (code == EXIT_UNSTABLE && running)
+        output_crash(running, message);
+}
+
+static void summarise(struct sim *s, double begin)
+{
+    const double wall = wall_clock() - begin;
+    double busy = 0.0;
+    for (int t = 0; t < TIMERS; t++)
+        busy += s->timers.seconds[t];
+    for (int t = 0; t < TIMERS; t++) {
+        char key[64];
+        snprintf(key, sizeof key, "time_%s", timer_name[t]);
+        summary_number(&s->summary, key, s->timers.seconds[t], "s");
+    }
+    summary_number(&s->summary, "simulated_time", s->t, "s");
+    summary_number(&s->summary, "steps", (double)s->step, "1");
+    summary_number(&s->summary, "grain_steps", (double)s->substep * s->grains.n, "1");
+    const double loop = s->timers.seconds[TIME_MOTION] + s->timers.seconds[TIME_NEIGHBOURS] +
+                        s->timers.seconds[TIME_CONTACTS] + s->timers.seconds[TIME_GATHER];
+    if (s->substep > 0 && loop > 0.0)
+        summary_number(&s->summary, "grain_steps_per_second",
+                       (double)s->substep * s->grains.n / loop, "s-1");
+    summary_number(&s->summary, "list_builds", (double)s->neighbours.builds, "1");
+    summary_number(&s->summary, "contacts_per_grain",
+                   s->grains.n > 0 ? (double)s->neighbours.touching / s->grains.n : 0.0, "1");
+    summary_number(&s->summary, "wall_time", wall, "s");
+    summary_number(&s->summary, "threads", omp_get_max_threads(), "1");
+    printf("where the time went:");
+    for (int t = 0; t < TIMERS; t++)
+        if (s->timers.seconds[t] > 0.005 * busy)
+            printf(" %s %.0f %%,", timer_name[t], 100.0 * s->timers.seconds[t] / busy);
+    printf(" wall %.2f s\n", wall);
+}
+
+/* Steps to the end, or to a signal; returns the exit code. */
+static int advance(struct sim *s)
+{
+    const long steps = (long)ceil(s->run.end / (s->run.dt * s->run.substeps) - 1e-9);
+    const double work = (double)s->run.substeps * s->grains.n +
+                        (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
+    double next_output = s->run.output_every, next_sample = s->run.series_every;
+    struct progress progress;
+    progress_start(&progress, 0.0, s->run.end, "running");
+    while (s->step < steps && !caught) {
+        step(s);
+        reference_watch(s);
+        const double clock = wall_clock(), slack = 1e-9 * s->run.end;
+        if (s->t >= next_sample - slack) {
+            output_sample(s);
+            while (next_sample <= s->t + slack)
+                next_sample += s->run.series_every;
+        }
+        if (s->t >= next_output - slack && s->step < steps) {
+            output_fields(s);
+            while (next_output <= s->t + slack)
+                next_output += s->run.output_every;
+        }
+        timer_add(&s->timers, TIME_OUTPUT, clock);
+        progress_update(&progress, s->t, work);
+    }
+    progress_end(&progress);
+    if (caught)
+        fprintf(stderr, "silt: stopped by a signal at t = %.9g s; outputs are complete up to here\n",
+                s->t);
+    return caught ? 128 + caught : EXIT_GOOD;
+}
+
+static int run(struct sim *s, struct scene *scene)
+{
+    const double begin = wall_clock();
+    output_create(s, scene);
+    running = s;
+    die_hook = last_words;
+    signal(SIGINT, on_signal);
+    signal(SIGTERM, on_signal);
+    sim_start(s);
+    if (fill_settles(s, scene))
+        settle(s);
+    ledger_start(s);
+    output_fields(s);
+    const int code = advance(s);
+    output_fields(s);
+    ledger_report(s);
+    reference_report(s);
+    summarise(s, begin);
+    output_close(s);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    const struct options o = parse(argc, argv);
+    if (o.threads > 0)
+        omp_set_num_threads(o.threads);
+    struct scene *const scene = scene_load(o.scene, o.n_overrides, o.overrides);
+    struct sim *const s = sim_alloc();
+    struct feasibility f = {0};
+    int code = EXIT_GOOD;
+    s->run.directory = o.directory ? xstrdup(o.directory) : default_directory(o.scene);
+    sim_create(s, scene, &f);
+    if (o.check)
+        feasibility_print(stdout, s, &f);
+    scene_finish(scene);
+    if (!o.check)
+        code = run(s, scene);
+    sim_free(s);
+    scene_free(scene);
+    xfree(o.overrides);
+    return code;
+}

@@ -1,0 +1,21 @@
+/* modules.h - the answers that this binary holds, one per slot. */
+#ifndef MODULES_H
+#define MODULES_H
+
+#include "scene.h"
+
+enum { SLOTS = 9 };
+
+struct slot {
+    const char *name;          /* "contact"; the key in [modules] */
+    const struct about *about; /* of the answer linked in */
+    const struct key *keys;
+};
+
+extern const struct slot slots[SLOTS];
+
+/* Declares [modules] and the keys of every answer; a scene that asks for other answers than
+ * these goes on the list of errors. */
+void modules_declare(struct scene *s);
+
+#endif

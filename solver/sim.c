@@ -1,0 +1,58 @@
+/* sim.c - makes a run from a scene, and unmakes it. */
+#include "sim.h"
+
+#include <string.h>
+#include "../reference/reference.h"
+#include "contact_loop.h"
+#include "feasibility.h"
+#include "modules.h"
+#include "run.h"
+
+struct sim *sim_alloc(void)
+{
+    return xalloc(1, sizeof(struct sim));
+}
+
+void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
+{
+    modules_declare(scene);
+    domain_read(&s->domain, scene);
+    run_read(s, scene);
+    flow_read(&s->flow, scene);
+    grains_create(s, scene);
+    walls_create(s, scene);
+    contact_create(s, scene);
+    fluid_create(s, scene);
+    run_steps(s, scene);
+    reference_create(s, scene);
+    if (scene_errors(scene) == 0) {
+        feasibility_fill(s, f);
+        feasibility_enforce(s, scene, f);
+    }
+    neighbours_create(s);
+}
+
+void sim_start(struct sim *s)
+{
+    memcpy(s->grains.vel_full, s->grains.vel, (size_t)s->grains.n * sizeof(vec3));
+    if (s->grains.n == s->grains.n_frozen)
+        return;
+    neighbours_refresh(s);
+    contact_loop(s);
+    contact_gather(s);
+}
+
+void sim_free(struct sim *s)
+{
+    reference_free(s);
+    fluid_free(s);
+    contact_free(s);
+    neighbours_free(s);
+    grains_free(s);
+    tables_free(&s->tables);
+    fields_free(&s->fields);
+    series_free(&s->series);
+    summary_free(&s->summary);
+    xfree(s->run.directory);
+    xfree(s);
+}
