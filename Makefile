@@ -86,6 +86,16 @@ $(BUILD)/provenance.h: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/obj/solver/provenance.o: $(BUILD)/provenance.h
 
+# Debian's packages, where they are missing; see run.sh.
+deps:
+	@./run.sh install
+check: deps
+	@verify/check.sh
+verify: deps
+	@verify/verify.sh
+bench: deps
+	@bench/bench.sh
+
 format:
 	clang-format -i $$(git ls-files '*.c' '*.h')
 format-check:

@@ -24,13 +24,14 @@ void shape_body(struct grains *g, int i, double diameter, double density)
 void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
                     struct levers *l)
 {
-    for (int k = 0; k < c->n; k++) {
-        const double ri = g->radius[c->i[k]];
-        const double rj = c->wall[k] ? 0.0 : g->radius[c->j[k]];
+    const double *const restrict radius = g->radius;
+    for (int k = 0; k < c->n; k++) { /* a wall has no radius; its j is i */
+        const double ri = radius[c->i[k]], rj = radius[c->j[k]];
         t->r_i[k] = ri;
-        t->r_j[k] = rj;
+        t->r_j[k] = c->wall[k] ? 0.0 : rj;
         t->r_eff[k] = c->wall[k] ? ri : ri * rj / (ri + rj);
     }
+#pragma omp simd
     for (int k = 0; k < c->n; k++) {
         const double distance =
             sqrt(c->dx[k] * c->dx[k] + c->dy[k] * c->dy[k] + c->dz[k] * c->dz[k]);

@@ -35,8 +35,10 @@ struct report {
 
 struct contact_work {
     size_t capacity;
-    struct record *record; /* of the slots of a run, packed from the run's first slot on */
-    int *record_of;        /* per slot; -1: no contact */
+    struct record *record; /* record 0 is zero; those of a run are packed from 1 + its first slot */
+    int *record_of;        /* per slot; 0: no contact */
+    int *records;          /* n + 1; of the grain as owner: from records[i] on, count[i] of them */
+    int *count;
     int runs;
     struct report *report;
 };
@@ -73,6 +75,8 @@ void contact_create(struct sim *s, struct scene *scene)
     xfree(names);
     s->contacts = xalloc(1, sizeof *s->contacts);
     s->contacts->runs = (g->n + RUN - 1) / RUN;
+    s->contacts->records = xalloc((size_t)g->capacity, sizeof *s->contacts->records);
+    s->contacts->count = xalloc((size_t)g->capacity, sizeof *s->contacts->count);
     s->contacts->report = xalloc((size_t)s->contacts->runs, sizeof *s->contacts->report);
 }
 
@@ -82,6 +86,8 @@ void contact_free(struct sim *s)
         return;
     xfree(s->contacts->record);
     xfree(s->contacts->record_of);
+    xfree(s->contacts->records);
+    xfree(s->contacts->count);
     xfree(s->contacts->report);
     xfree(s->contacts);
 }
@@ -94,7 +100,7 @@ static void make_room(struct sim *s)
     xfree(w->record);
     xfree(w->record_of);
     w->capacity = s->neighbours.n_slots + s->neighbours.n_slots / 8 + 64;
-    w->record = xalloc(w->capacity, sizeof *w->record);
+    w->record = xalloc(w->capacity + 1, sizeof *w->record);
     w->record_of = xalloc(w->capacity, sizeof *w->record_of);
 }
 
@@ -169,7 +175,6 @@ static int store(struct sim *s, const struct block *b, struct report *r, int nex
         const int slot = b->c.slot[c];
         if (!(t->depth[c] > -nb->reach)) {
             nb->live[slot] = 0;
-            w->record_of[slot] = -1;
             continue;
         }
         const vec3 f = v3(t->fx[c], t->fy[c], t->fz[c]), m = v3(t->mx[c], t->my[c], t->mz[c]);
@@ -180,6 +185,7 @@ static int store(struct sim *s, const struct block *b, struct report *r, int nex
         record->torque_i = v3_add(v3_cross(ai, f), m);
         record->torque_j = v3_scale(-1.0, v3_add(v3_cross(aj, f), m));
         w->record_of[slot] = next++;
+        w->count[b->c.i[c]]++;
         nb->live[slot] = 1;
         double *const h = &nb->history[(size_t)slot * nb->rows];
         for (int k = 0; k < nb->rows; k++)
@@ -216,57 +222,72 @@ static int work_block(struct sim *s, struct block *b, struct report *r, int next
     return store(s, b, r, next);
 }
 
-/* Puts a slot into the block if its bodies are within reach; returns whether they are. */
-static bool offer(const struct sim *s, struct block *b, int slot)
+/* The slot as the next candidate of the block, kept if its bodies are within reach: it is written
+ * in any case and counted if so, without a branch that could be guessed wrong. */
+static void offer_grain(struct sim *s, struct block *b, int slot)
 {
     const struct grains *const g = &s->grains;
     const int i = s->neighbours.owner[slot], j = s->neighbours.other[slot], c = b->c.n;
-    const struct wall *wall = NULL;
-    vec3 d;
-    double gap;
-    if (j >= 0) {
-        d = domain_minimum_image(&s->domain, v3_sub(g->pos[i], g->pos[j]));
-        const double cut = g->radius[i] + g->radius[j] + s->neighbours.reach;
-        gap = v3_dot(d, d) - cut * cut;
-    } else {
-        wall = &s->walls.wall[-1 - j];
-        const double above = v3_dot(v3_sub(g->pos[i], wall->point), wall->normal);
-        d = v3_scale(above, wall->normal);
-        gap = above - (g->radius[i] + s->neighbours.reach);
-    }
-    if (gap >= 0.0)
-        return false;
+    const vec3 d = domain_minimum_image(&s->domain, v3_sub(g->pos[i], g->pos[j]));
+    const double cut = g->radius[i] + g->radius[j] + s->neighbours.reach;
+    const bool near = v3_dot(d, d) < cut * cut;
     b->c.i[c] = i;
-    b->c.j[c] = j >= 0 ? j : i;
+    b->c.j[c] = j;
     b->c.slot[c] = slot;
-    b->c.wall[c] = wall;
+    b->c.wall[c] = NULL;
     b->c.dx[c] = d.x;
     b->c.dy[c] = d.y;
     b->c.dz[c] = d.z;
-    b->c.n++;
-    return true;
+    b->c.n += near;
+    s->neighbours.live[slot] &= near;
+}
+
+static void offer_wall(struct sim *s, struct block *b, int slot)
+{
+    const struct grains *const g = &s->grains;
+    const int i = s->neighbours.owner[slot], c = b->c.n;
+    const struct wall *const wall = &s->walls.wall[-1 - s->neighbours.other[slot]];
+    const double above = v3_dot(v3_sub(g->pos[i], wall->point), wall->normal);
+    const bool near = above < g->radius[i] + s->neighbours.reach;
+    b->c.i[c] = b->c.j[c] = i;
+    b->c.slot[c] = slot;
+    b->c.wall[c] = wall;
+    b->c.dx[c] = above * wall->normal.x;
+    b->c.dy[c] = above * wall->normal.y;
+    b->c.dz[c] = above * wall->normal.z;
+    b->c.n += near;
+    s->neighbours.live[slot] &= near;
 }
 
 static void work_run(struct sim *s, int run)
 {
     struct neighbours *const nb = &s->neighbours;
-    struct report *const r = &s->contacts->report[run];
+    struct contact_work *const w = s->contacts;
+    struct report *const r = &w->report[run];
     const int first = run * RUN;
     const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
     struct block b;
-    int next = nb->begin[first];
+    int next = 1 + nb->begin[first];
     b.c.n = 0;
     *r = (struct report){.worst = -1};
+    memset(&w->count[first], 0, (size_t)(last - first) * sizeof *w->count);
+    memset(&w->record_of[nb->begin[first]], 0,
+           (size_t)(nb->begin[last] - nb->begin[first]) * sizeof *w->record_of);
     for (int slot = nb->begin[first]; slot < nb->begin[last]; slot++) {
-        if (!offer(s, &b, slot)) {
-            nb->live[slot] = 0;
-            s->contacts->record_of[slot] = -1;
-        } else if (b.c.n == TOUCH) {
+        if (nb->other[slot] >= 0)
+            offer_grain(s, &b, slot);
+        else
+            offer_wall(s, &b, slot);
+        if (b.c.n == TOUCH)
             next = work_block(s, &b, r, next);
-        }
     }
     if (b.c.n > 0)
         work_block(s, &b, r, next);
+    next = 1 + nb->begin[first];
+    for (int i = first; i < last; i++) {
+        w->records[i] = next;
+        next += w->count[i];
+    }
 }
 
 static void die_overlap(const struct sim *s, int slot, double overlap)
@@ -336,22 +357,18 @@ void contact_gather(struct sim *s)
 {
     struct grains *const g = &s->grains;
     const struct neighbours *const nb = &s->neighbours;
-    const struct record *const record = s->contacts->record;
-    const int *const record_of = s->contacts->record_of;
+    const struct contact_work *const w = s->contacts;
+    const struct record *const record = w->record;
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < g->n; i++) {
         vec3 force = g->load[i], torque = g->load_torque[i];
-        for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++) {
-            const int k = record_of[t];
-            if (k < 0)
-                continue;
+        for (int k = w->records[i]; k < w->records[i] + w->count[i]; k++) {
             force = v3_add(force, record[k].force);
             torque = v3_add(torque, record[k].torque_i);
         }
+        /* a slot without contact adds record 0, which is zero */
         for (int t = nb->begin_in[i]; t < nb->begin_in[i + 1]; t++) {
-            const int k = record_of[nb->slots_in[t]];
-            if (k < 0)
-                continue;
+            const int k = w->record_of[nb->slots_in[t]];
             force = v3_sub(force, record[k].force);
             torque = v3_add(torque, record[k].torque_j);
         }

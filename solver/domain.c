@@ -57,6 +57,8 @@ static void read_sides(struct domain *d, struct scene *s, int axis)
         scene_error(s, "domain", NULL, side_name[2 * axis + (hi ? 1 : 0)],
                     "periodic must hold for both sides (domain.%s = periodic)", both);
     d->periodic[axis] = lo && hi;
+    d->image[axis] = d->periodic[axis] ? d->size[axis] : 0.0;
+    d->inv_image[axis] = d->periodic[axis] && d->size[axis] > 0.0 ? 1.0 / d->size[axis] : 0.0;
 }
 
 static void read_side_values(struct domain *d, struct scene *s)

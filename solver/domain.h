@@ -32,6 +32,7 @@ struct domain {
     double size[3];     /* m */
     int cells[3];       /* cells of the fluid grid; 0 0 0 when the scene has none */
     bool periodic[3];
+    double image[3], inv_image[3]; /* m, 1/m: the size and its inverse; 0 where not periodic */
     struct side side[6];
     vec3 gravity;       /* m/s2 */
 };
@@ -46,12 +47,9 @@ void domain_read(struct domain *d, struct scene *s);
 /* The vector from b to a, by the nearest image. Every position may be up to half a box outside. */
 static inline vec3 domain_minimum_image(const struct domain *d, vec3 ab)
 {
-    if (d->periodic[0])
-        ab.x -= d->size[0] * rint(ab.x / d->size[0]);
-    if (d->periodic[1])
-        ab.y -= d->size[1] * rint(ab.y / d->size[1]);
-    if (d->periodic[2])
-        ab.z -= d->size[2] * rint(ab.z / d->size[2]);
+    ab.x -= d->image[0] * rint(ab.x * d->inv_image[0]);
+    ab.y -= d->image[1] * rint(ab.y * d->inv_image[1]);
+    ab.z -= d->image[2] * rint(ab.z * d->inv_image[2]);
     return ab;
 }
 

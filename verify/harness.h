@@ -1,0 +1,60 @@
+/* verify/harness.h - a run made from the text of a scene, for tests. */
+#ifndef HARNESS_H
+#define HARNESS_H
+
+#include <stdlib.h>
+#include <unistd.h>
+#include "../solver/contact_loop.h"
+#include "../solver/feasibility.h"
+#include "../solver/sim.h"
+#include "../solver/step.h"
+
+/* A started run; ends the test where the scene is refused. The scene may be freed at once. */
+static inline struct sim *sim_from(const char *text)
+{
+    char path[] = "/tmp/silt-test-XXXXXX";
+    const int fd = mkstemp(path);
+    FILE *const file = fd >= 0 ? fdopen(fd, "w") : NULL;
+    if (!file)
+        abort();
+    fputs(text, file);
+    fclose(file);
+    struct scene *const scene = scene_load(path, 0, NULL);
+    struct sim *const s = sim_alloc();
+    struct feasibility f = {0};
+    sim_create(s, scene, &f);
+    scene_finish(scene);
+    unlink(path);
+    scene_free(scene);
+    sim_start(s);
+    return s;
+}
+
+/* Index of the grain with this id. */
+static inline int grain_at(const struct sim *s, int id)
+{
+    for (int i = 0; i < s->grains.n; i++)
+        if (s->grains.id[i] == id)
+            return i;
+    return -1;
+}
+
+/* FNV-1a over the state of the grains in order of id, and over the fields of the fluid. */
+static inline unsigned long sim_bits(const struct sim *s)
+{
+    unsigned long h = 14695981039346656037ul;
+    for (int f = 0; f < s->fields.n; f++) {
+        const struct field *const field = &s->fields.field[f];
+        const size_t size = kind_size(field->kind);
+        const size_t n = field->place == PLACE_GRAIN ? (size_t)s->grains.n : s->grid.total;
+        const unsigned char *const data = *field->data;
+        for (size_t i = 0; i < n; i++) {
+            const size_t at = field->place == PLACE_GRAIN ? (size_t)grain_at(s, (int)i) : i;
+            for (size_t b = 0; b < size; b++)
+                h = (h ^ data[at * size + b]) * 1099511628211ul;
+        }
+    }
+    return h;
+}
+
+#endif
