@@ -129,7 +129,13 @@ static void allocate(struct grains *g, int n)
 static void make_bodies(struct grains *g, struct scene *scene, const struct placed *placed)
 {
     const char *const *names;
-    scene_names(scene, "grains", &names);
+    const int species = scene_names(scene, "grains", &names);
+    vec3 *const velocity = xalloc(2 * (size_t)species + 1, sizeof *velocity);
+    vec3 *const spin = velocity + species;
+    for (int k = 0; k < species; k++) {
+        velocity[k] = scene_vector(scene, "grains", names[k], "velocity");
+        spin[k] = scene_vector(scene, "grains", names[k], "spin");
+    }
     for (int i = 0; i < g->n; i++) {
         const struct placed *const p = &placed[i];
         const struct species *const sp = &g->species[p->species];
@@ -141,10 +147,11 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct plac
             g->inv_mass[i] = g->inv_inertia[i] = 0.0;
             g->n_frozen++;
         } else {
-            g->vel[i] = scene_vector(scene, "grains", names[p->species], "velocity");
-            g->spin[i] = scene_vector(scene, "grains", names[p->species], "spin");
+            g->vel[i] = velocity[p->species];
+            g->spin[i] = spin[p->species];
         }
     }
+    xfree(velocity);
 }
 
 void grains_create(struct sim *s, struct scene *scene)
