@@ -64,19 +64,24 @@ $(BIN): $(BUILD)/obj/solver/main.o $(patsubst %,$(BUILD)/obj/%.o,$(ANSWERS)) $(L
 
 $(BUILD)/answers/%.so: $(BUILD)/obj/%.o
 	@mkdir -p $(@D)
-	$(CC) -shared $(LDFLAGS) -o $@ $<
+	$(CC) -shared $(LDFLAGS) -Wl,-Bsymbolic -o $@ $<
 
 # Tools and tests hold the whole library, and show its symbols to the answers that they load.
 $(BUILD)/%: $(BUILD)/obj/tools/%.o $(LIB)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(LIB) $(LIBS) -ldl
 
-# A test names the answers that it links in a line "slots: contact/linear drag/none ...".
-$(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED)
+# A test holds the whole library and one answer per slot: the first of each folder that its line
+# "slots: contact/linear fluid ..." names, or else none. It may load others (-Bsymbolic keeps each
+# to its own symbols).
+slots_of = $(shell for d in $(SLOT_DIRS); do a=$$d/none; [ $$d = shapes ] && a=$$d/sphere; \
+           for s in $$(sed -n 's/^ . slots: //p' verify/$(1).c); do \
+           [ "$${s%/*}" = $$d ] && a=$$s; done; echo $$a; done)
+.SECONDEXPANSION:
+$(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED) \
+                   $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,$$*)))
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< \
-	  $(patsubst %,$(BUILD)/obj/%.o,$(shell sed -n 's/^ \* slots: //p' verify/$*.c)) \
-	  $(if $(shell sed -n 's/^ \* slots: //p' verify/$*.c),$(LIB),-Wl$(comma)--whole-archive \
-	  $(LIB) -Wl$(comma)--no-whole-archive -Wl$(comma)--unresolved-symbols=ignore-all) $(LIBS) -ldl
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,$*)) \
+	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
 
 $(BUILD)/provenance.h: FORCE
 	@mkdir -p $(@D)

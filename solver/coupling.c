@@ -23,7 +23,7 @@ const struct key coupling_keys[] = {
     {0},
 };
 
-void coupling_create(struct sim *s, struct scene *scene)
+void coupling_read(struct sim *s, struct scene *scene)
 {
     struct coupling *const c = &s->coupling;
     scene_declare(scene, coupling_keys);
@@ -35,11 +35,16 @@ void coupling_create(struct sim *s, struct scene *scene)
     c->eps_min = scene_real(scene, "coupling", NULL, "porosity_min");
     drag_init(scene);
     porosity_init(scene);
+}
+
+void coupling_create(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
     double largest = 0.0;
     for (int i = 0; i < s->grains.n; i++)
         largest = fmax(largest, s->grains.radius[i]);
     const size_t n = (size_t)s->grains.capacity;
-    c->reach = s->grid.total > 0 ? porosity_reach(&s->grid, largest) : 1;
+    c->reach = porosity_reach(&s->grid, largest);
     c->n_shares = xalloc(n, sizeof *c->n_shares);
     c->shares = xalloc(n * (size_t)c->reach, sizeof *c->shares);
     c->kappa = xalloc(n * (size_t)c->reach, sizeof *c->kappa);

@@ -54,7 +54,8 @@ struct coupling {
 
 extern const struct key coupling_keys[];
 
-void coupling_create(struct sim *s, struct scene *scene);
+void coupling_read(struct sim *s, struct scene *scene); /* [coupling], and the keys of drag/, porosity/ */
+void coupling_create(struct sim *s);                    /* once grid and grains exist */
 void coupling_free(struct sim *s);
 
 void coupling_volume(struct sim *s); /* shares, fluid->eps, eps_f; keeps eps_old */

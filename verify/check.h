@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#define PI 3.14159265358979323846
+
 static int check_passed, check_failed;
 
 __attribute__((format(printf, 2, 3))) static bool check(bool good, const char *format, ...)

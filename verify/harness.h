@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include "../solver/contact_loop.h"
 #include "../solver/feasibility.h"
+#include "../solver/modules.h"
 #include "../solver/sim.h"
 #include "../solver/step.h"
 
@@ -19,7 +20,12 @@ static inline struct sim *sim_from(const char *text)
         abort();
     fputs(text, file);
     fclose(file);
-    struct scene *const scene = scene_load(path, 0, NULL);
+    char *answers[SLOTS]; /* the scene asks for what the test links */
+    for (int i = 0; i < SLOTS; i++)
+        answers[i] = xprintf("modules.%s=%s", slots[i].name, slots[i].about->name);
+    struct scene *const scene = scene_load(path, SLOTS, answers);
+    for (int i = 0; i < SLOTS; i++)
+        xfree(answers[i]);
     struct sim *const s = sim_alloc();
     struct feasibility f = {0};
     sim_create(s, scene, &f);

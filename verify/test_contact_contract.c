@@ -141,7 +141,7 @@ static void check_energy(const struct law *law, const char *name, double shear, 
     const int steps = 20000;
     double work = 0.0, size = 0.0;
     for (int k = 0; k < steps; k++) {
-        const double a = 2.0 * M_PI * k / steps, rate = 2.0 * M_PI / (steps * t.dt);
+        const double a = 2.0 * PI * k / steps, rate = 2.0 * PI / (steps * t.dt);
         const double depth = 2e-5 * (1.0 - cos(a)) - 1e-6;
         const vec3 v = v3(shear * rate * sin(2.0 * a + phase), 0.0, -2e-5 * rate * sin(a));
         put(&t, 0, depth, v3(0.0, 0.0, 1.0), v);

@@ -38,6 +38,17 @@ static double under_arc(double r, double a, double b)
     return 0.5 * (at_b - at_a);
 }
 
+/* Sorts a few numbers. */
+static void sort(double *x, int n)
+{
+    for (int i = 1; i < n; i++)
+        for (int j = i; j > 0 && x[j] < x[j - 1]; j--) {
+            const double swap = x[j];
+            x[j] = x[j - 1];
+            x[j - 1] = swap;
+        }
+}
+
 /* Area of the disc at height z inside the rectangle: between the x at which the chord changes
  * its form, it is an arc's area, a rectangle, or both. */
 static double slice(double z, void *params)
@@ -58,12 +69,7 @@ static double slice(double z, void *params)
             if (at > x[0] && at < x[1] && fabs(edge[e]) < c.r)
                 x[n++] = at;
         }
-    for (int i = 1; i < n; i++) /* sorts */
-        for (int j = i; j > 0 && x[j] < x[j - 1]; j--) {
-            const double swap = x[j];
-            x[j] = x[j - 1];
-            x[j - 1] = swap;
-        }
+    sort(x, n);
     double area = 0.0;
     for (int i = 0; i + 1 < n; i++) {
         const double a = x[i], b = x[i + 1], mid = 0.5 * (a + b);
@@ -76,15 +82,31 @@ static double slice(double z, void *params)
     return area;
 }
 
+/* Volume, piece by piece between the heights at which the slice changes its form: where a plane
+ * or an edge of the box leaves the sphere. */
 static double quadrature(gsl_integration_workspace *w, struct cut *c)
 {
+    const double ex[2] = {c->lo.x - c->centre.x, c->hi.x - c->centre.x};
+    const double ey[2] = {c->lo.y - c->centre.y, c->hi.y - c->centre.y};
     const double lo = fmax(c->lo.z, c->centre.z - c->radius);
     const double hi = fmin(c->hi.z, c->centre.z + c->radius);
-    if (lo >= hi)
-        return 0.0;
-    double volume, error;
     const gsl_function f = {.function = slice, .params = c};
-    gsl_integration_qags(&f, lo, hi, 1e-12 * pow(c->radius, 3), 0.0, 2000, w, &volume, &error);
+    double z[18] = {lo, hi}, volume = 0.0;
+    int n = 2;
+    for (int m = 1; m < 9; m++) { /* planes in x (m / 3), in y (m % 3), and both */
+        const double x = m / 3 > 0 ? ex[m / 3 - 1] : 0.0, y = m % 3 > 0 ? ey[m % 3 - 1] : 0.0;
+        const double at = sqrt(fmax(0.0, c->radius * c->radius - x * x - y * y));
+        for (int sign = -1; sign <= 1; sign += 2)
+            if (c->centre.z + sign * at > lo && c->centre.z + sign * at < hi)
+                z[n++] = c->centre.z + sign * at;
+    }
+    sort(z, n);
+    for (int i = 0; i + 1 < n && lo < hi; i++) {
+        double piece, error;
+        gsl_integration_qags(&f, z[i], z[i + 1], 1e-13 * pow(c->radius, 3), 1e-12, 2000, w, &piece,
+                             &error);
+        volume += piece;
+    }
     return volume;
 }
 

@@ -28,6 +28,7 @@ struct fluid {
     double *drag[3];   /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
     double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
     double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the rest */
+    struct fluid_work *work; /* the answer's own: solver, scratch, fields of steps before */
     int iterations;    /* of the last pressure solve */
     double residual;   /* relative, of the last pressure solve */
     double divergence; /* largest |d(eps)/dt + div(eps u)| h / U after the last step */

@@ -1,0 +1,40 @@
+/* fluid_state.h - what the fluid solvers share: reading, fields, sides, guards. */
+#ifndef FLUID_STATE_H
+#define FLUID_STATE_H
+
+#include "pressure.h"
+#include "sim.h"
+
+/* Reads domain.cells, density, viscosity and dt of [fluid], makes the grid, allocates and registers
+ * the fields of struct fluid, and the coupling. dt = auto takes half of the limits at the largest
+ * velocity of [flow]. False if the scene has errors: nothing is allocated then. */
+bool fluid_state_create(struct sim *s, struct scene *scene);
+void fluid_state_free(struct sim *s);
+
+/* m/s; the largest interstitial velocity to expect: that of [flow] at a porosity of 0.4. */
+double fluid_expected_velocity(const struct sim *s);
+
+/* Last face to be looped over in direction b, for faces of direction a: n, or n + 1 where b == a. */
+static inline int face_last(const struct grid *g, int a, int b)
+{
+    return g->n[b] + (a == b);
+}
+
+/* Sides as the pressure sees them: `open` kinds are Dirichlet. */
+void fluid_pressure_sides(const struct domain *d, enum poisson_side side[6]);
+bool side_open(const struct domain *d, int side); /* outflow or head: pressure given */
+
+/* Normal velocities on the faces of sides where they are given, ghosts of all components. */
+void fluid_velocity_sides(struct sim *s, double t);
+
+/* Pressure on a side: the mean over its faces of p + G h/2, or of the value held. */
+double fluid_boundary_pressure(const struct sim *s, int side);
+
+/* Superficial divergence plus d(eps)/dt of cell c, 1/s. */
+double fluid_divergence(const struct sim *s, int c);
+
+/* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is not
+ * finite or, if `limited`, where the Courant number passes 1. */
+void fluid_guard(struct sim *s, bool limited);
+
+#endif

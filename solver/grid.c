@@ -1,0 +1,43 @@
+/* grid.c - the regular grid: its strides, its fields, their ghosts. */
+#include "grid.h"
+
+void grid_create(struct grid *g, const struct domain *d)
+{
+    g->volume = 1.0;
+    g->total = 1;
+    for (int a = 0; a < 3; a++) {
+        g->n[a] = d->cells[a];
+        g->h[a] = d->size[a] / d->cells[a];
+        g->volume *= g->h[a];
+        g->total *= (size_t)g->n[a] + 2;
+    }
+    g->sj = g->n[0] + 2;
+    g->sk = g->sj * (g->n[1] + 2);
+    g->s[0] = 1;
+    g->s[1] = g->sj;
+    g->s[2] = g->sk;
+}
+
+double *grid_field(const struct grid *g)
+{
+    return xalloc(g->total, sizeof(double));
+}
+
+/* Copies layer `from` to layer `to` of direction a, ghosts of the directions before it included. */
+static void copy_layer(const struct grid *g, double *f, int a, int to, int from)
+{
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    for (int k = 0; k <= g->n[c] + 1; k++)
+        for (int j = 0; j <= g->n[b] + 1; j++) {
+            const int at = j * g->s[b] + k * g->s[c];
+            f[at + to * g->s[a]] = f[at + from * g->s[a]];
+        }
+}
+
+void grid_ghosts(const struct grid *g, const struct domain *d, double *field)
+{
+    for (int a = 0; a < 3; a++) { /* the later directions fill edges and corners */
+        copy_layer(g, field, a, 0, d->periodic[a] ? g->n[a] : 1);
+        copy_layer(g, field, a, g->n[a] + 1, d->periodic[a] ? 1 : g->n[a]);
+    }
+}
