@@ -154,4 +154,12 @@ void momentum_viscous(const struct sim *s, const struct momentum *m, int a, doub
                 }
                 out[c] = f->mu * sum;
             }
+    if (!s->domain.periodic[a]) /* the last face of a periodic direction is the first */
+        return;
+    const int b = (a + 1) % 3, d = (a + 2) % 3;
+    for (int k = 1; k <= g->n[d]; k++)
+        for (int j = 1; j <= g->n[b]; j++) {
+            const int at = j * g->s[b] + k * g->s[d];
+            out[at + (g->n[a] + 1) * sa] = out[at + sa];
+        }
 }

@@ -1,0 +1,12 @@
+/* xdmf.h - a sidecar that lets ParaView open run.nc (netCDF-4 is HDF5). */
+#ifndef XDMF_H
+#define XDMF_H
+
+#include <stddef.h>
+
+struct sim;
+
+/* Writes run.xmf for the outputs at these times, s. */
+void xdmf_write(const struct sim *s, const double *times, size_t n_time);
+
+#endif
