@@ -43,8 +43,9 @@ ALL_ANSWERS := $(foreach d,$(SLOT_DIRS),$(wildcard $(d)/*.c))
 SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
 TOOLS := $(patsubst tools/%.c,$(BUILD)/%,$(wildcard tools/*.c))
 
-.PHONY: silt tools answers clean format format-check check verify bench deps FORCE
+.PHONY: silt where tools answers clean format format-check check verify bench deps FORCE
 silt: $(BIN)
+where: # prints where the binary is
 	@echo $(BIN)
 tools: $(TOOLS)
 answers: $(SHARED)
@@ -66,9 +67,11 @@ $(BUILD)/answers/%.so: $(BUILD)/obj/%.o
 	@mkdir -p $(@D)
 	$(CC) -shared $(LDFLAGS) -Wl,-Bsymbolic -o $@ $<
 
-# Tools and tests hold the whole library, and show its symbols to the answers that they load.
-$(BUILD)/%: $(BUILD)/obj/tools/%.o $(LIB)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(LIB) $(LIBS) -ldl
+# Tools link the first answers of each slot, and show the library's symbols to others they load.
+FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
+         $(addsuffix /none,$(filter-out shapes,$(SLOT_DIRS))))
+$(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
 
 # A test holds the whole library and one answer per slot: the first of each folder that its line
 # "slots: contact/linear fluid ..." names, or else none. It may load others (-Bsymbolic keeps each

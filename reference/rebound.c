@@ -5,8 +5,9 @@
  * height of the centre at the top of flight after k bounces of a sphere of radius r, in the limit
  * of hard spheres with restitution e. The tops of all grains are averaged over the grains that
  * reach them; the simulated one is z + v^2/(2 g) just past the top, where flight is free. The flight
- * of the first grain is drawn over the parabolas of the limit. Contacts take time, which the
- * limit does not have: later bounces lag, their heights do not. */
+ * of the first grain is drawn over the parabolas of the limit. A soft contact takes a time t_c, in
+ * which the weight acts on: later bounces lag, and heights deviate by the order of g t_c/v, v the
+ * speed of impact; so a comparison of bounces to come needs contacts stiff enough for the last. */
 #include "reference.h"
 
 #include "../solver/sim.h"

@@ -91,6 +91,8 @@ void scene_error(struct scene *s, const char *section, const char *name, const c
                  const char *format, ...) __attribute__((format(printf, 5, 6)));
 int scene_errors(const struct scene *s); /* how many so far */
 void scene_finish(struct scene *s);
+/* The same, where only one section is to be judged. */
+void scene_finish_section(struct scene *s, const char *section);
 
 const char *scene_path(const struct scene *s);
 /* The scene as resolved: every declared key with the value used, one "section.key = value" a

@@ -150,6 +150,19 @@ int scene_errors(const struct scene *s)
     return s->n_errors;
 }
 
+/* Prints the list and ends the program, unless it is empty. */
+static void report(struct scene *s)
+{
+    if (s->n_errors == 0)
+        return;
+    qsort(s->error, (size_t)s->n_errors, sizeof *s->error, by_line);
+    for (int i = 0; i < s->n_errors && i < ERRORS_SHOWN; i++)
+        fprintf(stderr, "%s\n", s->error[i].text);
+    if (s->n_errors > ERRORS_SHOWN)
+        fprintf(stderr, "... and %d more\n", s->n_errors - ERRORS_SHOWN);
+    exit(EXIT_SCENE);
+}
+
 void scene_finish(struct scene *s)
 {
     for (int i = 0; i < s->n_sections; i++)
@@ -161,14 +174,15 @@ void scene_finish(struct scene *s)
     }
     if (s->n_errors == 0)
         check_unread(s);
-    if (s->n_errors == 0)
-        return;
-    qsort(s->error, (size_t)s->n_errors, sizeof *s->error, by_line);
-    for (int i = 0; i < s->n_errors && i < ERRORS_SHOWN; i++)
-        fprintf(stderr, "%s\n", s->error[i].text);
-    if (s->n_errors > ERRORS_SHOWN)
-        fprintf(stderr, "... and %d more\n", s->n_errors - ERRORS_SHOWN);
-    exit(EXIT_SCENE);
+    report(s);
+}
+
+void scene_finish_section(struct scene *s, const char *section)
+{
+    for (int i = 0; i < s->n_entries; i++)
+        if (strcmp(s->entry[i].section, section) == 0)
+            check_key(s, &s->entry[i]);
+    report(s);
 }
 
 bool scene_has(struct scene *s, const char *section)

@@ -1,0 +1,180 @@
+#!/usr/bin/env bash
+# run.sh - from a scene to a result: installs what is missing, builds what the scene requires, runs
+# it, draws. `./run.sh help` lists the commands.
+set -euo pipefail
+
+caller=$PWD
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
+usage() {
+    cat <<'TEXT'
+./run.sh [SCENE] [section.key=value ...] [-o DIR] [-j THREADS]
+                         build what the scene requires, run it, draw; default: scenes/packed_bed.ini
+./run.sh check SCENE [section.key=value ...]
+                         the feasibility report: every limit as a ratio; runs nothing
+./run.sh plot DIR        the pictures of a run again
+./run.sh modules         every answer of every slot: equation, source, range, keys
+./run.sh keys            every key of a scene: unit, range, default, meaning
+./run.sh install         install the Debian packages that are missing
+./run.sh help            this text
+Exit codes: 0 good; 2 bad scene or usage; 3 unstable or unphysical state; 4 could not write;
+130, 143 stopped by a signal, outputs complete up to there.
+TEXT
+}
+
+refuse() {
+    echo "silt: $*" >&2
+    exit 2
+}
+
+# Debian packages that are missing, by the file or command that shows each.
+missing_packages() {
+    command -v gcc > /dev/null || echo gcc
+    command -v make > /dev/null || echo make
+    command -v gnuplot > /dev/null || echo gnuplot-nox
+    local include=/usr/include
+    [ -e $include/stdlib.h ] || echo libc6-dev
+    [ -e $include/gsl/gsl_rng.h ] || echo libgsl-dev
+    [ -e $include/fftw3.h ] || echo libfftw3-dev
+    [ -e $include/netcdf.h ] || echo libnetcdf-dev
+    [ -e $include/ini.h ] || echo libinih-dev
+    [ -e $include/udunits2.h ] || [ -e $include/udunits2/udunits2.h ] || echo libudunits2-dev
+}
+
+install_packages() {
+    local packages sudo=()
+    mapfile -t packages < <(missing_packages)
+    [ ${#packages[@]} -eq 0 ] && return
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo > /dev/null || ! sudo -n true 2> /dev/null; then
+            refuse "packages are missing; install them with: apt-get install ${packages[*]}"
+        fi
+        sudo=(sudo -n)
+    fi
+    command -v apt-get > /dev/null ||
+        refuse "packages are missing, and there is no apt-get here: ${packages[*]}"
+    echo "installing ${packages[*]}" >&2
+    mkdir -p "$root/build"
+    if ! { "${sudo[@]}" apt-get update &&
+        "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y \
+            --no-install-recommends "${packages[@]}"; } > "$root/build/install.log" 2>&1; then
+        tail -n 5 "$root/build/install.log" >&2
+        refuse "the packages could not be installed; the whole log is in build/install.log"
+    fi
+}
+
+# make, quiet unless it fails
+build() {
+    local log
+    if ! log=$(make -s -C "$root" -j"$(nproc)" "$@" 2>&1); then
+        echo "$log" >&2
+        refuse "the build has failed"
+    fi
+}
+
+# A path as the caller means it: from where he is, or from the project's folder.
+find_scene() {
+    local path=$1
+    case $path in
+        /*) ;;
+        *) if [ -e "$caller/$path" ]; then
+            [ "$caller" = "$root" ] || path=$caller/$path
+        fi ;;
+    esac
+    echo "$path"
+}
+
+from_caller() {
+    case $1 in
+        /*) echo "$1" ;;
+        *) if [ "$caller" = "$root" ]; then echo "$1"; else echo "$caller/$1"; fi ;;
+    esac
+}
+
+# Splits the arguments of `run` and `check` into the variables below.
+scene=
+directory=
+threads=()
+overrides=()
+parse() {
+    while [ $# -gt 0 ]; do
+        case $1 in
+            -o | -j)
+                [ $# -ge 2 ] || refuse "$1 needs a value"
+                if [ "$1" = -o ]; then directory=$2; else threads=(-j "$2"); fi
+                shift
+                ;;
+            -*) refuse "no such option: $1 (./run.sh help)" ;;
+            *=*) overrides+=("$1") ;;
+            *)
+                [ -z "$scene" ] || refuse "one scene only, not also $1 (./run.sh help)"
+                scene=$1
+                ;;
+        esac
+        shift
+    done
+}
+
+# Builds the binary of the scene; its path in $binary.
+build_scene() {
+    local slots
+    build build/release/front
+    slots=$(build/release/front slots "$scene" "${overrides[@]}") || exit $?
+    build $slots silt
+    binary=$(make -s -C "$root" $slots where)
+}
+
+run_scene() {
+    local status=0
+    scene=$(find_scene "${scene:-scenes/packed_bed.ini}")
+    if [ -z "$directory" ]; then
+        directory=out/$(basename "${scene%.*}")
+    else
+        directory=$(from_caller "$directory")
+    fi
+    build_scene
+    build build/release/plot &
+    local plot=$!
+    "$binary" "$scene" "${overrides[@]}" -o "$directory" "${threads[@]}" || status=$?
+    wait $plot || status=2
+    if [ -e "$directory/run.nc" ] && { [ $status -eq 0 ] || [ $status -ge 128 ]; }; then
+        build/release/plot "$directory" || [ $status -ne 0 ] || status=$?
+    fi
+    exit $status
+}
+
+cd "$root"
+case ${1:-} in
+    help | -h | --help)
+        usage
+        ;;
+    install)
+        install_packages
+        ;;
+    modules | keys)
+        [ $# -eq 1 ] || refuse "usage: ./run.sh $1"
+        install_packages
+        build build/release/front answers
+        build/release/front "$1"
+        ;;
+    plot)
+        [ $# -eq 2 ] || refuse "usage: ./run.sh plot DIR"
+        install_packages
+        build build/release/plot
+        build/release/plot "$(from_caller "$2")"
+        ;;
+    check)
+        shift
+        parse "$@"
+        [ -n "$scene" ] || refuse "usage: ./run.sh check SCENE [section.key=value ...]"
+        install_packages
+        scene=$(find_scene "$scene")
+        build_scene
+        "$binary" "$scene" "${overrides[@]}" --check "${threads[@]}"
+        ;;
+    *)
+        parse "$@"
+        install_packages
+        run_scene
+        ;;
+esac
