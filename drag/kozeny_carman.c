@@ -6,9 +6,9 @@
  * Above eps_cap the permeability stays that of eps_cap, a numerical guard [the seed review's
  * Table 3, row 1] and no physics: k(eps) = k(eps_cap) means
  *   Fhat = eps d^2/(18 (1-eps) k(eps_cap)) = (C/18) eps (1-eps_cap)^2/((1-eps) eps_cap^3),
- * a resistance per volume that no longer falls with the solid in it, hence a force per grain that
- * grows as 1/(1-eps). So that it stays finite, 1-eps in this denominator is at least 0.01: in
- * thinner suspensions k rises again as 0.01/(1-eps). eps_cap = 1 switches the guard off; the
+ * a resistance per volume that no longer falls with the solid in it, hence a force per grain
+ * that grows as 1/(1-eps). So that it stays finite, 1-eps in this denominator is at least 0.01:
+ * in thinner suspensions k rises again as 0.01/(1-eps). eps_cap = 1 switches the guard off; the
  * factor then vanishes at eps = 1.
  *
  * The review's rows mix k in m2 (C = 180) and a conductivity in m/s (C = 150) under one symbol:

@@ -2,8 +2,9 @@
  *
  *   F_d = 3 pi mu d U,  U = eps u_r,   so Fhat = 1
  *
- * Exact for an isolated sphere as Re -> 0. The slip is the superficial one, as in every law here;
- * for eps = 1 the two slips agree. Neighbours are not felt: for a bed take another law. */
+ * Exact for an isolated sphere as Re -> 0. The slip is the superficial one, as in every law
+ * here; for eps = 1 the two slips agree. Neighbours are not felt: for a bed take another law.
+ */
 #include "drag.h"
 
 const struct about drag_about = {.name = "stokes",

@@ -2,14 +2,15 @@
  *
  *   w_pc = |ball p in cell c|/V_p        (the bounding sphere of a grain that is no sphere)
  *
- * The cells that a ball meets form a small brick. With G(i,j,k) the part of the ball beyond the low
- * faces of cell (i,j,k) (solver/sphere_box.c; the low faces at the edge of the brick count as
- * infinitely far), the parts in the cells are the differences of G along x, y and z in turn. What
- * lies beyond a wall thereby stays in the outermost cell inside, and the parts sum to 1 but for
- * round-off. A grain in one cell costs no formula, one cut by a single plane only that of a cap.
+ * The cells that a ball meets form a small brick. With G(i,j,k) the part of the ball beyond the
+ * low faces of cell (i,j,k) (solver/sphere_box.c; the low faces at the edge of the brick count
+ * as infinitely far), the parts in the cells are the differences of G along x, y and z in turn.
+ * What lies beyond a wall thereby stays in the outermost cell inside, and the parts sum to 1
+ * but for round-off. A grain in one cell costs no formula, one cut by a single plane only that
+ * of a cap.
  *
- * Shares below 1e-15 are round-off of cells in the brick's corners that the ball does not reach;
- * they are left out. A grain nearly as large as a periodic box may name a cell twice. */
+ * Shares below 1e-15 are round-off of cells in the brick's corners that the ball does not
+ * reach; they are left out. A grain nearly as large as a periodic box may name a cell twice. */
 #include "porosity.h"
 
 #include "../solver/locate.h"

@@ -1,13 +1,15 @@
-/* porosity/none.c - grains take no volume from the fluid: eps = 1 everywhere. What they exchange
- * with the fluid they exchange with the cell of their centre. Right for grains that are few and
- * small, and for one-way scenes of a single sphere. Also the template for new answers. */
+/* porosity/none.c - grains take no volume from the fluid: eps = 1 everywhere. What they
+ * exchange with the fluid they exchange with the cell of their centre. Right for grains that
+ * are few and small, and for one-way scenes of a single sphere. Also the template for new
+ * answers. */
 #include "porosity.h"
 
 #include "../solver/locate.h"
 
 const struct about porosity_about = {.name = "none",
                                      .summary = "grains take no volume from the fluid",
-                                     .equation = "eps = 1; all of a grain in the cell of its centre",
+                                     .equation =
+                                         "eps = 1; all of a grain in the cell of its centre",
                                      .source = "",
                                      .range = "dilute: solid fraction below 0.001"};
 const struct key porosity_keys[] = {{0}};

@@ -1,13 +1,13 @@
 /* reference/layered_column.c - steady seepage along z through layers: the head at each height.
  *
- * Layers of cells in series, with flux U and resistance R_k(U), the head lost per flux and length:
- *   -dH/dz = R_k U,   rho g R_k U = 18 mu (1-eps_k) Fhat(eps_k, rho U d_k/mu) U/(eps_k d_k^2)
- *   H(z_k) = H(0) - U [R_1 h + ... + R_{k-1} h + R_k h/2]
- * exact for layers that are each uniform [Darcy1856]. The law is the drag law of the run, eps_k the
- * mean fluid fraction of the layer as the grid has it, d_k the volume-to-surface mean diameter of
- * the grains in it, weighted with their shares. Sides: a head or an outflow (head 0), or a given
- * flux or inflow. Where both sides hold a head, U is the root of the total loss, so that a law that
- * is not linear in U is solved as such. Compared at the end of the run, which must be steady. */
+ * Layers of cells in series, with flux U and resistance R_k(U), the head lost per flux and
+ * length: -dH/dz = R_k U,   rho g R_k U = 18 mu (1-eps_k) Fhat(eps_k, rho U d_k/mu) U/(eps_k
+ * d_k^2) H(z_k) = H(0) - U [R_1 h + ... + R_{k-1} h + R_k h/2] exact for layers that are each
+ * uniform [Darcy1856]. The law is the drag law of the run, eps_k the mean fluid fraction of the
+ * layer as the grid has it, d_k the volume-to-surface mean diameter of the grains in it,
+ * weighted with their shares. Sides: a head or an outflow (head 0), or a given flux or inflow.
+ * Where both sides hold a head, U is the root of the total loss, so that a law that is not
+ * linear in U is solved as such. Compared at the end of the run, which must be steady. */
 #include "reference.h"
 
 #include <gsl/gsl_errno.h>
@@ -30,8 +30,8 @@ const struct key reference_keys[] = {
 struct layered_column {
     double tolerance, gravity, rho, mu, h; /* 1, m/s2, kg/m3, Pa s, m */
     int n;
-    double *eps, *d;   /* per layer: fluid fraction; m, diameter */
-    double lost;       /* m, the loss of head asked for; of the root */
+    double *eps, *d; /* per layer: fluid fraction; m, diameter */
+    double lost;     /* m, the loss of head asked for; of the root */
     struct table *table;
 };
 
@@ -68,9 +68,11 @@ void reference_create(struct sim *s, struct scene *scene)
     s->reference = p;
     p->tolerance = scene_real(scene, "reference", NULL, "tolerance");
     if (!s->fluid.exists || s->grains.n == 0)
-        scene_error(scene, "modules", NULL, "reference", "layered_column needs a fluid and grains");
+        scene_error(scene, "modules", NULL, "reference",
+                    "layered_column needs a fluid and grains");
     for (int z = Z_LO; z <= Z_HI; z++)
-        if (!gives_head(side[z].kind) && side[z].kind != SIDE_FLUX && side[z].kind != SIDE_INFLOW)
+        if (!gives_head(side[z].kind) && side[z].kind != SIDE_FLUX &&
+            side[z].kind != SIDE_INFLOW)
             scene_error(scene, "domain", NULL, side_name[z],
                         "layered_column needs head, outflow, flux or inflow here");
     if (!gives_head(side[Z_LO].kind) && !gives_head(side[Z_HI].kind))
@@ -195,8 +197,9 @@ static double add_rows(const struct sim *s, struct layered_column *p, double u, 
         const double fall = slope(p, k, u), exact = head - 0.5 * p->h * fall;
         const double simulated = pressure[k] / (p->rho * p->gravity);
         const double error = (simulated - exact) / scale;
-        const double row[COLUMNS] = {(k + 0.5) * p->h, p->eps[k],
-                                     fall != 0.0 ? u / fall : (double)NAN, simulated, exact, error};
+        const double row[COLUMNS] = {
+            (k + 0.5) * p->h, p->eps[k], fall != 0.0 ? u / fall : (double)NAN,
+            simulated,        exact,     error};
         table_row(p->table, row);
         if (!(fabs(error) <= worst) && !isnan(worst))
             worst = fabs(error);
@@ -228,9 +231,10 @@ void reference_report(struct sim *s)
     summary_number(sum, "flux_error", flux_error, "1");
     summary_number(sum, "head_error", worst, "1");
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
-    printf("reference: %s flux %.8g m/s against %.8g m/s, %+.2e, largest error of a head %.2e of "
-           "the difference, tolerance %g\n", good ? "pass" : "FAIL", got, u, flux_error, worst,
-           p->tolerance);
+    printf(
+        "reference: %s flux %.8g m/s against %.8g m/s, %+.2e, largest error of a head %.2e of "
+        "the difference, tolerance %g\n",
+        good ? "pass" : "FAIL", got, u, flux_error, worst, p->tolerance);
 }
 
 void reference_free(struct sim *s)

@@ -2,12 +2,13 @@
  *
  *   h_k = r + (h_0 - r) e^(2k)
  *
- * height of the centre at the top of flight after k bounces of a sphere of radius r, in the limit
- * of hard spheres with restitution e. The tops of all grains are averaged over the grains that
- * reach them; the simulated one is z + v^2/(2 g) just past the top, where flight is free. The flight
- * of the first grain is drawn over the parabolas of the limit. A soft contact takes a time t_c, in
- * which the weight acts on: later bounces lag, and heights deviate by the order of g t_c/v, v the
- * speed of impact; so a comparison of bounces to come needs contacts stiff enough for the last. */
+ * height of the centre at the top of flight after k bounces of a sphere of radius r, in the
+ * limit of hard spheres with restitution e. The tops of all grains are averaged over the grains
+ * that reach them; the simulated one is z + v^2/(2 g) just past the top, where flight is free.
+ * The flight of the first grain is drawn over the parabolas of the limit. A soft contact takes
+ * a time t_c, in which the weight acts on: later bounces lag, and heights deviate by the order
+ * of g t_c/v, v the speed of impact; so a comparison of bounces to come needs contacts stiff
+ * enough for the last. */
 #include "reference.h"
 
 #include "../solver/sim.h"
@@ -19,8 +20,10 @@ const struct about reference_about = {
     .source = "",
     .range = "spheres falling on the floor z = 0, not on each other, without a fluid"};
 const struct key reference_keys[] = {
-    {"reference", "restitution", KEY_REAL, "1", "(0, 1]", NULL, "rebound speed over impact speed"},
-    {"reference", "bounces", KEY_INT, "", "[1, 100]", "5", "bounces that are compared, at most"},
+    {"reference", "restitution", KEY_REAL, "1", "(0, 1]", NULL,
+     "rebound speed over impact speed"},
+    {"reference", "bounces", KEY_INT, "", "[1, 100]", "5",
+     "bounces that are compared, at most"},
     {"reference", "tolerance", KEY_REAL, "1", "(0, inf)", "1 %",
      "of a height above that at contact"},
     {0},
@@ -31,13 +34,14 @@ enum { ROWS = 400 };
 struct rebound {
     double e, gravity, tolerance;
     int bounces;
-    int n;                /* grains, by id */
-    int *count;           /* bounces so far */
-    double *last, *top;   /* m/s, velocity at the last step; m, height of the first top over r */
-    double *simulated, *exact, *error; /* per bounce: sums over grains; largest relative error */
-    int *reached;         /* grains that reached the top after this bounce */
-    double z, v, r;       /* first grain at the start */
-    double next;          /* s, of the next row of the flight */
+    int n;              /* grains, by id */
+    int *count;         /* bounces so far */
+    double *last, *top; /* m/s, velocity at the last step; m, height of the first top over r */
+    double *simulated, *exact,
+        *error;     /* per bounce: sums over grains; largest relative error */
+    int *reached;   /* grains that reached the top after this bounce */
+    double z, v, r; /* first grain at the start */
+    double next;    /* s, of the next row of the flight */
     struct table *heights, *flight;
 };
 
@@ -58,14 +62,14 @@ static const struct table flight_pattern = {
     .column = {{"time", "s", "time"},
                {"simulated", "m", "height of the centre, simulated"},
                {"exact", "m", "height of the centre, hard sphere"}},
-    .figure = {.file = "rebound.png",
-               .title = "height of the first grain",
-               .x = "time",
-               .x_label = "time / s",
-               .y_label = "height / m",
-               .n_curves = 2,
-               .curve = {{"simulated", "points", "simulated"},
-                         {"exact", "line", "hard sphere"}}}};
+    .figure = {
+        .file = "rebound.png",
+        .title = "height of the first grain",
+        .x = "time",
+        .x_label = "time / s",
+        .y_label = "height / m",
+        .n_curves = 2,
+        .curve = {{"simulated", "points", "simulated"}, {"exact", "line", "hard sphere"}}}};
 
 /* m; height of a hard sphere, started at z with velocity v, at time t. */
 static double hard_sphere(const struct rebound *p, double t)
@@ -147,7 +151,8 @@ void reference_watch(struct sim *s)
         if (last < 0.0 && v > 0.0)
             p->count[id]++;
         else if (last >= 0.0 && v < 0.0)
-            count_top(p, id, g->pos[i].z + 0.5 * v * v / p->gravity - g->radius[i], g->radius[i]);
+            count_top(p, id, g->pos[i].z + 0.5 * v * v / p->gravity - g->radius[i],
+                      g->radius[i]);
         p->last[id] = v;
         if (id == 0 && s->t >= p->next) {
             const double row[] = {s->t, g->pos[i].z, hard_sphere(p, s->t)};
@@ -185,7 +190,7 @@ void reference_free(struct sim *s)
     struct rebound *const p = s->reference;
     if (!p)
         return;
-    void *const all[] = {p->count, p->last,  p->top,    p->simulated,
+    void *const all[] = {p->count, p->last,  p->top,     p->simulated,
                          p->exact, p->error, p->reached, p};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);

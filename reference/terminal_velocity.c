@@ -2,13 +2,13 @@
  *
  *   m dv/dt = (m - rho V) g - kappa(|v|) v,   kappa = 3 pi mu d Fhat(1, rho |v| d/mu)
  *
- * with the drag law of the run for eps = 1, integrated by an adaptive Runge-Kutta method of order
- * 8 [PrinceDormand81] from the velocity of the grain when the fluid sets in; without buoyancy
- * where the scene switches it off. The grain compared is the first of the scene. Its terminal
- * velocity is the root of the balance of forces; those of Stokes' [Stokes1851] and of Schiller and
- * Naumann's drag [SchillerNaumann35], C_D = 24/Re (1 + 0.15 Re^0.687), 0.44 from Re = 1000 on, are
- * given besides. The comparison ends when the grain touches something. Exact for one-way scenes;
- * in two-way ones the difference is what the grid adds. */
+ * with the drag law of the run for eps = 1, integrated by an adaptive Runge-Kutta method of
+ * order 8 [PrinceDormand81] from the velocity of the grain when the fluid sets in; without
+ * buoyancy where the scene switches it off. The grain compared is the first of the scene. Its
+ * terminal velocity is the root of the balance of forces; those of Stokes' [Stokes1851] and of
+ * Schiller and Naumann's drag [SchillerNaumann35], C_D = 24/Re (1 + 0.15 Re^0.687), 0.44 from
+ * Re = 1000 on, are given besides. The comparison ends when the grain touches something. Exact
+ * for one-way scenes; in two-way ones the difference is what the grid adds. */
 #include "reference.h"
 
 #include <gsl/gsl_errno.h>
@@ -19,7 +19,8 @@
 
 const struct about reference_about = {
     .name = "terminal_velocity",
-    .summary = "velocity of one falling grain against the solution of its own equation of motion",
+    .summary =
+        "velocity of one falling grain against the solution of its own equation of motion",
     .equation = "m dv/dt = (m - rho V) g - 3 pi mu d Fhat(1, Re) v",
     .source = "[Stokes1851]; [SchillerNaumann35]",
     .range = "one grain in a fluid at rest"};
@@ -34,12 +35,12 @@ static const double pi = 3.14159265358979323846;
 struct terminal_velocity {
     double tolerance;
     double mass, d, rho, mu;
-    vec3 pull;       /* N, weight less buoyancy */
-    vec3 down;       /* unit vector along it */
+    vec3 pull; /* N, weight less buoyancy */
+    vec3 down; /* unit vector along it */
     bool started, ended;
-    double t, v[3];  /* s, m/s: the exact solution, at the time of the last step */
-    double speed;    /* m/s, simulated, along `down`, then */
-    double next;     /* s, of the next row */
+    double t, v[3];              /* s, m/s: the exact solution, at the time of the last step */
+    double speed;                /* m/s, simulated, along `down`, then */
+    double next;                 /* s, of the next row */
     double (*factor)(double re); /* of the law whose balance is sought */
     gsl_odeiv2_driver *driver;
     gsl_odeiv2_system system;
@@ -165,7 +166,8 @@ void reference_create(struct sim *s, struct scene *scene)
     const double pull = v3_norm(p->pull);
     p->down = pull > 0.0 ? v3_scale(1.0 / pull, p->pull) : v3(0.0, 0.0, -1.0);
     p->system = (gsl_odeiv2_system){acceleration, NULL, 3, p};
-    p->driver = gsl_odeiv2_driver_alloc_y_new(&p->system, gsl_odeiv2_step_rk8pd, 1e-9, 1e-16, 1e-12);
+    p->driver =
+        gsl_odeiv2_driver_alloc_y_new(&p->system, gsl_odeiv2_step_rk8pd, 1e-9, 1e-16, 1e-12);
     p->table = tables_add(&s->tables, &pattern);
     start(p, s);
 }
@@ -223,16 +225,17 @@ void reference_report(struct sim *s)
     summary_number(sum, "terminal_velocity", limit, "m s-1");
     summary_number(sum, "terminal_reynolds", p->rho * limit * p->d / p->mu, "1");
     summary_number(sum, "terminal_velocity_stokes", terminal(p, factor_stokes), "m s-1");
-    summary_number(sum, "terminal_velocity_schiller_naumann", terminal(p, factor_schiller_naumann),
-                   "m s-1");
-    printf("terminal velocity: drag law %.6g m/s, Stokes %.6g m/s, Schiller-Naumann %.6g m/s\n"
-           "largest difference on the way: %.3g %% of the terminal velocity; reached %.4g of it\n",
-           limit, terminal(p, factor_stokes), terminal(p, factor_schiller_naumann), 100.0 * worst,
-           p->speed / limit);
+    summary_number(sum, "terminal_velocity_schiller_naumann",
+                   terminal(p, factor_schiller_naumann), "m s-1");
+    printf(
+        "terminal velocity: drag law %.6g m/s, Stokes %.6g m/s, Schiller-Naumann %.6g m/s\n"
+        "largest difference on the way: %.3g %% of the terminal velocity; reached %.4g of it\n",
+        limit, terminal(p, factor_stokes), terminal(p, factor_schiller_naumann), 100.0 * worst,
+        p->speed / limit);
     const bool good = fabs(error) <= p->tolerance;
     printf("reference: %s velocity at t = %g s, %.6g m/s against %.6g m/s, %+.4f %%, tolerance "
-           "%g %%\n", good ? "pass" : "FAIL", p->t, p->speed, exact, 100.0 * error,
-           100.0 * p->tolerance);
+           "%g %%\n",
+           good ? "pass" : "FAIL", p->t, p->speed, exact, 100.0 * error, 100.0 * p->tolerance);
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
 }
 

@@ -55,6 +55,13 @@ void coupling_create(struct sim *s)
     c->eps = grid_field(&s->grid);
     c->K = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
+        static const char *const name[3] = {"drag_velocity_x", "drag_velocity_y",
+                                            "drag_velocity_z"};
+        c->u_drag[a] = grid_field(&s->grid);
+        fields_add(&s->fields,
+                   (struct field){name[a], "m s-1", "velocity at which the drag was taken",
+                                  (enum place)(PLACE_FACE_X + a), KIND_REAL,
+                                  (void **)&c->u_drag[a], FIELD_STATE});
         c->KV[a] = grid_field(&s->grid);
         c->Q[a] = grid_field(&s->grid);
         c->M[a] = grid_field(&s->grid);
@@ -76,6 +83,7 @@ void coupling_free(struct sim *s)
         xfree(all[i]);
     for (int a = 0; a < 3; a++) {
         xfree(c->KV[a]);
+        xfree(c->u_drag[a]);
         xfree(c->Q[a]);
         xfree(c->M[a]);
     }
@@ -107,19 +115,20 @@ static void spread_volume(const struct sim *s, double *out)
     }
 }
 
-/* Means of the two cells beside each face of one direction. */
+/* Means of the two cells beside each face of one direction, ghosts of the others included; beyond
+ * the first face a periodic copy, or the first face again. */
 static void face_mean(const struct sim *s, const double *cells, int a, double *faces)
 {
     const struct grid *const g = &s->grid;
-    const int step = g->s[a];
-    const int last[3] = {g->n[0] + (a == 0), g->n[1] + (a == 1), g->n[2] + (a == 2)};
+    const int step = g->s[a], b = (a + 1) % 3, d = (a + 2) % 3;
 #pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k);
-                faces[c] = 0.5 * (cells[c] + cells[c - step]);
-            }
+    for (int k = 0; k <= g->n[d] + 1; k++)
+        for (int j = 0; j <= g->n[b] + 1; j++) {
+            const int at = j * g->s[b] + k * g->s[d];
+            for (int i = 1; i <= g->n[a] + 1; i++)
+                faces[at + i * step] = 0.5 * (cells[at + i * step] + cells[at + (i - 1) * step]);
+            faces[at] = faces[at + (s->domain.periodic[a] ? g->n[a] : 1) * step];
+        }
 }
 
 static void die_full(const struct sim *s, int c)
@@ -209,16 +218,27 @@ static void sense_cells(struct sim *s)
     }
 }
 
+/* The superficial velocities at which the drag is taken, see the head of coupling.h. */
+static void drag_velocities(struct sim *s)
+{
+    const struct fluid *const f = &s->fluid;
+    for (int a = 0; a < 3; a++) {
+        double *const u = s->coupling.u_drag[a];
+        const double keep = s->coupling.takes == 0 ? 0.0 : 0.5;
+#pragma omp parallel for schedule(static)
+        for (size_t c = 0; c < s->grid.total; c++)
+            u[c] = keep * u[c] + (1.0 - keep) * (f->eps_f[a][c] * f->u[a][c]);
+    }
+    s->coupling.takes++;
+}
+
 /* Superficial velocity of a cell. */
 static vec3 superficial(const struct sim *s, int at)
 {
-    const struct fluid *const f = &s->fluid;
-    double u[3];
-    for (int a = 0; a < 3; a++) {
-        const int up = at + s->grid.s[a];
-        u[a] = 0.5 * (f->eps_f[a][at] * f->u[a][at] + f->eps_f[a][up] * f->u[a][up]);
-    }
-    return v3(u[0], u[1], u[2]);
+    double *const *const u = s->coupling.u_drag;
+    return v3(0.5 * (u[0][at] + u[0][at + s->grid.s[0]]),
+              0.5 * (u[1][at] + u[1][at + s->grid.s[1]]),
+              0.5 * (u[2][at] + u[2][at + s->grid.s[2]]));
 }
 
 /* kappa' and v' of one grain; returns theta. */
@@ -300,6 +320,7 @@ void coupling_drag(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     double relaxation = 0.0;
+    drag_velocities(s);
 #pragma omp parallel for schedule(dynamic, 64) reduction(max : relaxation)
     for (int i = 0; i < s->grains.n; i++)
         relaxation = fmax(relaxation, grain_drag(s, i));

@@ -7,8 +7,8 @@
 
 #include "grid.h"
 
-/* Interior index 1..n in direction `axis` of the interval i (counted from 0 at the low side, and
- * on beyond the box). */
+/* Interior index 1..n in direction `axis` of the interval i (counted from 0 at the low side,
+ * and on beyond the box). */
 int locate_index(const struct grid *g, const struct domain *d, int axis, int i);
 
 /* Index in a grid field of the cell that holds x. */

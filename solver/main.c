@@ -159,6 +159,8 @@ static int run(struct sim *s, struct scene *scene)
     if (fill_settles(s, scene))
         settle(s);
     ledger_start(s);
+    if (s->fluid.exists)
+        fluid_sense(s); /* the porosity at the start, for the output */
     output_fields(s);
     const int code = advance(s);
     output_fields(s);

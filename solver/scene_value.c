@@ -203,7 +203,8 @@ static bool convert(struct scene *s, const struct asked *a, const char *unit, in
                            count == 3 ? "three numbers" : "the number");
     } else if (!unit[0]) {
         what = xprintf("needs a unit, as in %s", a->key->unit);
-    } else if (isdigit((unsigned char)unit[0]) || strchr("+-.,", unit[0])) {
+    } else if ((isdigit((unsigned char)unit[0]) && strncmp(unit, "1/", 2) != 0) ||
+               strchr("+-.,", unit[0])) { /* a number too many; but "1/m" is a unit */
         complain_number(s, a, count);
         return false;
     } else {

@@ -1,20 +1,18 @@
 /* sphere_box.c - volume of a ball's part beyond one, two or three orthogonal planes.
  *
- * By the divergence theorem about the centre, a part bounded by the unit sphere and planes x_k = a_k
- * (the part lies beyond each) has the volume
- *   V = (Omega - sum_k a_k A_k)/3
- * with Omega its area on the sphere and A_k its area on plane k. By Gauss and Bonnet, with phi_k
- * the angle of its arc on plane k (an arc's geodesic curvature times its length is a_k phi_k) and
- * alpha the exterior angles at its corners,
- *   Omega = 2 pi - sum_k a_k phi_k - sum alpha,   tan alpha_ab = w_ab/(-a b),
- *   w_ab = sqrt(1 - a^2 - b^2),
- * where w_ab is also the coordinate at which the edge of planes a and b leaves the ball. The forms
- * hold for any signs as long as the edge (the corner, for three planes) lies inside the ball. If it
- * does not, a plane with a < 0 is mirrored: beyond(a) + beyond(-a) = all.
+ * By the divergence theorem about the centre, a part bounded by the unit sphere and planes x_k
+ * = a_k (the part lies beyond each) has the volume V = (Omega - sum_k a_k A_k)/3 with Omega its
+ * area on the sphere and A_k its area on plane k. By Gauss and Bonnet, with phi_k the angle of
+ * its arc on plane k (an arc's geodesic curvature times its length is a_k phi_k) and alpha the
+ * exterior angles at its corners, Omega = 2 pi - sum_k a_k phi_k - sum alpha,   tan alpha_ab =
+ * w_ab/(-a b), w_ab = sqrt(1 - a^2 - b^2), where w_ab is also the coordinate at which the edge
+ * of planes a and b leaves the ball. The forms hold for any signs as long as the edge (the
+ * corner, for three planes) lies inside the ball. If it does not, a plane with a < 0 is
+ * mirrored: beyond(a) + beyond(-a) = all.
  *
- * Every angle is an atan2, so nothing is lost next to tangency: the derivative of V by w_ab is of
- * the order of w_ab, and the round-off of the root cancels. Derived for this program; the same
- * volumes by other ways are in [StrobletAl16]. */
+ * Every angle is an atan2, so nothing is lost next to tangency: the derivative of V by w_ab is
+ * of the order of w_ab, and the round-off of the root cancels. Derived for this program; the
+ * same volumes by other ways are in [StrobletAl16]. */
 #include "sphere_box.h"
 
 static const double pi = 3.14159265358979323846;
@@ -67,8 +65,8 @@ double ball_octant(double a, double b, double c)
     const double w_ab = sqrt(1.0 - a2 - b2), w_ac = sqrt(1.0 - a2 - c2);
     const double w_bc = sqrt(1.0 - b2 - c2);
     const double corners = atan2(w_ab, -a * b) + atan2(w_ac, -a * c) + atan2(w_bc, -b * c);
-    const double faces = face(a, b, c, w_ac, w_ab) + face(b, a, c, w_bc, w_ab) +
-                         face(c, a, b, w_bc, w_ac);
+    const double faces =
+        face(a, b, c, w_ac, w_ab) + face(b, a, c, w_bc, w_ab) + face(c, a, b, w_bc, w_ac);
     return (2.0 * pi - corners - faces) / (4.0 * pi);
 }
 
@@ -76,9 +74,9 @@ double sphere_box_overlap(vec3 centre, double radius, vec3 lo, vec3 hi)
 {
     const vec3 a = v3_scale(1.0 / radius, v3_sub(lo, centre));
     const vec3 b = v3_scale(1.0 / radius, v3_sub(hi, centre));
-    const double part =
-        ball_octant(a.x, a.y, a.z) - ball_octant(b.x, a.y, a.z) - ball_octant(a.x, b.y, a.z) -
-        ball_octant(a.x, a.y, b.z) + ball_octant(b.x, b.y, a.z) + ball_octant(b.x, a.y, b.z) +
-        ball_octant(a.x, b.y, b.z) - ball_octant(b.x, b.y, b.z);
+    const double part = ball_octant(a.x, a.y, a.z) - ball_octant(b.x, a.y, a.z) -
+                        ball_octant(a.x, b.y, a.z) - ball_octant(a.x, a.y, b.z) +
+                        ball_octant(b.x, b.y, a.z) + ball_octant(b.x, a.y, b.z) +
+                        ball_octant(a.x, b.y, b.z) - ball_octant(b.x, b.y, b.z);
     return fmax(0.0, part) * (4.0 / 3.0 * pi) * radius * radius * radius;
 }

@@ -52,7 +52,7 @@ void series_add(struct series *s, const char *name, const char *unit, const char
                 const double *value);
 
 /* A table of results with the figure that shows it. */
-enum { TABLE_COLUMNS = 16, FIGURE_CURVES = 8 };
+enum { TABLE_COLUMNS = 20, FIGURE_CURVES = 8 };
 
 struct column {
     const char *name, *unit, *long_name;

@@ -126,8 +126,8 @@ static void draw_figure(const struct run *r, int var, const char *table)
     double *const x = read_column(r, table, x_name, &n);
     struct picture p = open_picture(r, file, WIDTH, HEIGHT);
     FILE *const to = p.gnuplot;
-    fprintf(to, "set title '%s' font ',15' noenhanced\nset xlabel '%s' noenhanced\nset ylabel '%s' "
-                "noenhanced\nset key outside bottom center horizontal noenhanced\n%s%s",
+    fprintf(to, "set title '%s' font ',15' noenhanced\nset xlabel '%s'\nset ylabel '%s'\n"
+                "set key outside bottom center horizontal noenhanced\n%s%s",
             title, label[0], label[1], log[0] ? "set logscale x\n" : "",
             log[1] ? "set logscale y\n" : "");
     if (!log[1])
@@ -146,8 +146,8 @@ static void draw_figure(const struct run *r, int var, const char *table)
                 strcmp(part[1], "points") == 0
                     ? xprintf("%s%s$%s using 1:2 with points pt 7 ps 1.5 lc '%s' title '%s'", plot,
                               i ? ", " : "", block, colour[i], part[2])
-                    : xprintf("%s%s$%s using 1:2 with lines lw 2.2 lc '%s' title '%s'", plot,
-                              i ? ", " : "", block, colour[i], part[2]);
+                    : xprintf("%s%s$%s using 1:2 with lines lw 2.2 dt %d lc '%s' title '%s'",
+                              plot, i ? ", " : "", block, i % 4 + 1, colour[i], part[2]);
             xfree(plot);
             plot = longer;
             xfree(y);
@@ -284,23 +284,30 @@ static void draw_bed(const struct run *r)
         return;
     const size_t shown[2] = {0, times - 1};
     const int panels = times > 1 ? 2 : 1;
-    double fastest = 0.0;
+    double fastest = 0.0, top = 0.0;
     for (int i = 0; i < panels; i++) {
         if (!read_grains(r, shown[i], time, radius, n, &g[i]))
             return;
-        for (size_t k = 0; k < n; k++)
+        for (size_t k = 0; k < n; k++) {
             fastest = fmax(fastest, 1e3 * speed(&g[i], (int)k));
+            top = fmax(top, g[i].pos[3 * k + 2] + radius[k]);
+        }
     }
+    if (n > 1) /* the empty part of the box is not shown */
+        size[2] = fmin(size[2], fmax(1.25 * top, 0.2 * size[2]));
     const double aspect = size[0] / size[2];
-    const int height = 860, panel = (int)fmin(fmax(height * 0.8 * aspect + 150.0, 300.0), 900.0);
+    const int panel = (int)fmin(fmax(620.0 * aspect + 150.0, 300.0), 640.0);
+    const int height = (int)fmin(fmax((panel - 110.0) / aspect + 230.0, 520.0), 860.0);
     int var;
     const bool profile = nc_inq_varid(r->nc, "fluid_fraction", &var) == NC_NOERR;
     struct picture p = open_picture(r, "bed.png", panels * panel + (profile ? 420 : 0) + 110, height);
     FILE *const to = p.gnuplot;
     const int columns = panels + profile;
-    fprintf(to, "set multiplot layout 1,%d margins 0.07,%g,0.1,0.92 spacing 0.06,0.05\n"
-                "set palette defined (0 '#2b4a7d', 0.5 '#8fb3d9', 1 '#e8b04a')\n"
-                "set cbrange [0:%g]\nset cblabel 'speed, mm/s'\nset xlabel 'x, mm'\n"
+    fprintf(to, "set multiplot layout 1,%d margins 0.07,%g,0.17,0.92 spacing 0.07,0.05\n"
+                "set palette defined (0 '#6f97c4', 0.5 '#b9d3ea', 1 '#e8a83a')\n"
+                "set cbrange [0:%g]\nset label 2 at screen 0.30,0.062 'speed, mm/s'\n"
+                "set colorbox horizontal user origin screen 0.07,0.055 size screen 0.22,0.016\n"
+                "set xlabel 'x, mm'\n"
                 "set ylabel 'z, mm'\nset yrange [0:%g]\nset xrange [0:%g]\n"
                 "set style fill solid 1.0 border lc '#1b2c4a'\nunset key\nset size ratio -1\n",
             columns, 0.93, fastest > 0.0 ? fastest : 1.0, 1e3 * size[2], 1e3 * size[0]);
@@ -310,12 +317,12 @@ static void draw_bed(const struct run *r)
         send_grains(to, &g[i], block, size[1], size);
         fprintf(to, "%s\nset title 't = %.4g s' font ',14'\n"
                     "plot $%s using 1:2:3:4 with circles lc palette lw 0.3\n",
-                i + 1 < panels ? "unset colorbox" : "set colorbox", g[i].time, block);
+                i > 0 ? "unset colorbox\nunset ylabel" : "", g[i].time, block);
         free_grains(&g[i]);
     }
     if (profile) {
         fprintf(to, "set size noratio\nset key at graph 0.98,0.98 right top\nset xrange [0:1.02]\n"
-                    "set xlabel 'fluid fraction (mean of the layer)'\nset title 'porosity over height' "
+                    "set xlabel 'fluid fraction (mean of the layer)'\nset ylabel 'z, mm'\nset title 'porosity over height' "
                     "font ',14'\nunset colorbox\n");
         for (int i = 0; i < panels; i++) {
             char block[16];

@@ -1,9 +1,9 @@
 /* verify/test_drag.c - the laws of drag.
  *
- * Against published formulas: factors at 13 points per law (reference/drag_points.csv) and of the
- * isolated sphere (reference/drag_isolated.csv). Against the contract, for every answer there is:
- * finite and positive for any eps in (0, 1] and any Re, force rising with the slip; its limit for
- * an isolated sphere and its largest jump are printed. */
+ * Against published formulas: factors at 13 points per law (reference/drag_points.csv) and of
+ * the isolated sphere (reference/drag_isolated.csv). Against the contract, for every answer
+ * there is: finite and positive for any eps in (0, 1] and any Re, force rising with the slip;
+ * its limit for an isolated sphere and its largest jump are printed. */
 #include <stdio.h>
 #include <string.h>
 #include "../drag/drag.h"
@@ -46,7 +46,8 @@ static double worst_point(const struct law *law, const char *path, bool isolated
                      : sscanf(line, "%63[^,],%lf,%lf,%*f,%lf", name, &eps, &re, &want) != 4)
             continue;
         /* Di Felice's sphere is Dallavalle's. */
-        const char *const row = isolated && strcmp(name, "dallavalle") == 0 ? "di_felice" : name;
+        const char *const row =
+            isolated && strcmp(name, "dallavalle") == 0 ? "di_felice" : name;
         if (strcmp(row, law->name) != 0)
             continue;
         worst = fmax(worst, fabs(factor(law, eps, re) / want - 1.0));
@@ -65,8 +66,8 @@ static void test_reference(const struct law *law)
               law->name, points, bed);
     const double alone = worst_point(law, "verify/reference/drag_isolated.csv", true, &points);
     if (points > 0)
-        check(alone <= 1e-8, "%s: %d points of the isolated sphere, largest error %.1e", law->name,
-              points, alone);
+        check(alone <= 1e-8, "%s: %d points of the isolated sphere, largest error %.1e",
+              law->name, points, alone);
 }
 
 /* Finite and not negative everywhere, positive wherever there are neighbours or inertia. */

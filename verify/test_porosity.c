@@ -1,8 +1,8 @@
 /* verify/test_porosity.c - the volume of a sphere in a box, and every answer of porosity/.
  *
- * The exact overlap is compared with an adaptive quadrature over the height of the box (the area
- * of a disc in a rectangle, by another formula than the program's), and with the volume of the
- * sphere when the boxes of a grid cover it. The contract, for every answer there is: shares
+ * The exact overlap is compared with an adaptive quadrature over the height of the box (the
+ * area of a disc in a rectangle, by another formula than the program's), and with the volume of
+ * the sphere when the boxes of a grid cover it. The contract, for every answer there is: shares
  * are positive, sum to 1, name interior cells, fit the room asked for; what grains of any place
  * put on the grid is their volume. */
 #include <gsl/gsl_errno.h>
@@ -26,7 +26,8 @@ static double chord(double x, void *params)
     const struct cut *const c = params;
     const double dx = x - c->centre.x;
     const double half = sqrt(fmax(0.0, c->r * c->r - dx * dx));
-    const double from = fmax(c->lo.y, c->centre.y - half), to = fmin(c->hi.y, c->centre.y + half);
+    const double from = fmax(c->lo.y, c->centre.y - half),
+                 to = fmin(c->hi.y, c->centre.y + half);
     return fmax(0.0, to - from);
 }
 
@@ -103,8 +104,8 @@ static double quadrature(gsl_integration_workspace *w, struct cut *c)
     sort(z, n);
     for (int i = 0; i + 1 < n && lo < hi; i++) {
         double piece, error;
-        gsl_integration_qags(&f, z[i], z[i + 1], 1e-13 * pow(c->radius, 3), 1e-12, 2000, w, &piece,
-                             &error);
+        gsl_integration_qags(&f, z[i], z[i + 1], 1e-13 * pow(c->radius, 3), 1e-12, 2000, w,
+                             &piece, &error);
         volume += piece;
     }
     return volume;
@@ -123,9 +124,11 @@ static void test_overlap(gsl_rng *rng)
     for (int t = 0; t < 1000; t++) {
         const double r = pow(10.0, uniform(rng, -5.0, 0.0)), size = uniform(rng, 0.1, 2.0);
         struct cut c = {.radius = r};
-        c.centre = v3(uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0));
-        c.lo = v3_axpy(c.centre, r, v3(uniform(rng, -1.3, 0.9), uniform(rng, -1.3, 0.9),
-                                       uniform(rng, -1.3, 0.9)));
+        c.centre =
+            v3(uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0));
+        c.lo = v3_axpy(
+            c.centre, r,
+            v3(uniform(rng, -1.3, 0.9), uniform(rng, -1.3, 0.9), uniform(rng, -1.3, 0.9)));
         if (t % 4 == 0) /* one face just touches the sphere, or nearly */
             c.lo.x = c.centre.x - r * (1.0 + uniform(rng, -1.0, 1.0) * pow(10.0, -(t % 16)));
         if (t % 4 == 1) /* an edge passes through the surface */
@@ -160,14 +163,15 @@ static void test_cover(gsl_rng *rng)
                     sum += sphere_box_overlap(x, r, v3(i, j, k), v3(i + 1, j + 1, k + 1));
         worst = fmax(worst, fabs(sum / (4.0 / 3.0 * pi * r * r * r) - 1.0));
     }
-    check(worst < 1e-12, "1000 spheres covered by 512 boxes: largest relative error %.1e", worst);
+    check(worst < 1e-12, "1000 spheres covered by 512 boxes: largest relative error %.1e",
+          worst);
 }
 
 struct answer {
     const char *name;
     int (*reach)(const struct grid *g, double radius);
-    int (*shares)(const struct grid *g, const struct domain *d, const struct grains *grains, int i,
-                  struct share *out);
+    int (*shares)(const struct grid *g, const struct domain *d, const struct grains *grains,
+                  int i, struct share *out);
     void (*init)(struct scene *s);
     const struct key *keys;
 };
@@ -196,7 +200,8 @@ static bool interior(const struct grid *g, int c)
     return i >= 1 && i <= g->n[0] && j >= 1 && j <= g->n[1] && k >= 1 && k <= g->n[2];
 }
 
-/* Grains anywhere in the box, against its sides, a little outside, and on the planes of cells. */
+/* Grains anywhere in the box, against its sides, a little outside, and on the planes of cells.
+ */
 static double place_grains(gsl_rng *rng, const struct domain *d, const struct grid *g)
 {
     double volume = 0.0;
@@ -241,7 +246,8 @@ static void test_answer(const struct answer *answer, const struct domain *d, con
         worst = fmax(worst, fabs(sum - 1.0));
     }
     const double on_grid = sum_blocks(field, g.total);
-    check(worst <= 1e-14, "%s, %s: shares sum to 1, largest error %.1e", answer->name, what, worst);
+    check(worst <= 1e-14, "%s, %s: shares sum to 1, largest error %.1e", answer->name, what,
+          worst);
     check(least >= 0.0 && outside == 0 && crowded == 0,
           "%s, %s: smallest share %.1e, %d outside, %d beyond reach", answer->name, what, least,
           outside, crowded);
@@ -280,7 +286,8 @@ static void visit(const char *name, void *object)
     struct share out[27];
     double sum = 0.0;
     for (int n = 0; n < GRAINS; n++) {
-        positions[n] = v3(uniform(rng, 0.1, 0.9), uniform(rng, 0.1, 0.9), uniform(rng, 0.1, 0.9));
+        positions[n] =
+            v3(uniform(rng, 0.1, 0.9), uniform(rng, 0.1, 0.9), uniform(rng, 0.1, 0.9));
         radii[n] = 0.25 * g.h[0];
     }
     const struct grains grains = {.n = GRAINS, .pos = positions, .radius = radii};

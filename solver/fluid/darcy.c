@@ -46,7 +46,6 @@ struct fluid_work {
     double *conductivity[3]; /* m^2/B on faces, m2/(Pa s) */
     double *rhs, *p_new, *dp;
     double *u_before[3]; /* solved in the round before */
-    double *u_drag[3];   /* at which the drag was taken */
     double tolerance, picard, contrast, storage, source;
     double gravity;          /* m/s2, for heads */
     double held;             /* faces whose conductivity is held, for the series */
@@ -91,7 +90,6 @@ void fluid_create(struct sim *s, struct scene *scene)
     for (int a = 0; a < 3; a++) {
         w->conductivity[a] = grid_field(&s->grid);
         w->u_before[a] = grid_field(&s->grid);
-        w->u_drag[a] = grid_field(&s->grid);
     }
     series_add(&s->series, "pressure_iterations", "1", "iterations of the last head solve",
                &w->iterations);
@@ -110,7 +108,6 @@ void fluid_free(struct sim *s)
         for (int a = 0; a < 3; a++) {
             xfree(w->conductivity[a]);
             xfree(w->u_before[a]);
-            xfree(w->u_drag[a]);
         }
         fluid_state_free(s);
     }
@@ -263,19 +260,6 @@ static double change(const struct sim *s)
     return fastest > 0.0 ? most / fastest : 0.0;
 }
 
-/* The drag at the mean of the velocity solved and the one of the last round: for a quadratic law
- * that is Newton's step for the root, where the solved velocity itself would swing for ever. */
-static void renew_drag(struct sim *s)
-{
-    struct fluid_work *const w = s->fluid.work;
-    for (int a = 0; a < 3; a++)
-        for (size_t c = 0; c < s->grid.total; c++) {
-            w->u_drag[a][c] = 0.5 * (w->u_drag[a][c] + s->fluid.u[a][c]);
-            s->fluid.u[a][c] = w->u_drag[a][c];
-        }
-    coupling_drag(s);
-}
-
 void fluid_step(struct sim *s)
 {
     struct fluid *const f = &s->fluid;
@@ -285,13 +269,11 @@ void fluid_step(struct sim *s)
     memcpy(w->p_new, f->p, bytes);
     int rounds = 0;
     double changed;
-    for (int a = 0; a < 3; a++)
-        memcpy(w->u_drag[a], f->u[a], bytes);
     do {
         for (int a = 0; a < 3; a++)
             memcpy(w->u_before[a], f->u[a], bytes);
         if (rounds > 0)
-            renew_drag(s);
+            coupling_drag(s); /* at the velocity just found, see coupling.h */
         conductivities(s);
         solve_head(s);
         changed = change(s);
