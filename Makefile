@@ -32,8 +32,8 @@ FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -g
 FLAGS_debug   := -O1 -g3 -fno-omit-frame-pointer -fsanitize=address,undefined \
                  -fno-sanitize-recover=undefined
 CFLAGS := $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE))
-LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undefined) -Wl,--as-needed
 comma := ,
+LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undefined) -Wl,--as-needed
 LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lm
 
 LIB := $(BUILD)/libsilt.a

@@ -55,13 +55,17 @@ void coupling_create(struct sim *s)
     c->eps = grid_field(&s->grid);
     c->K = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
-        static const char *const name[3] = {"drag_velocity_x", "drag_velocity_y",
-                                            "drag_velocity_z"};
+        static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
+                                               {"drag_velocity_y", "drag_swing_y"},
+                                               {"drag_velocity_z", "drag_swing_z"}};
+        const enum place place = (enum place)(PLACE_FACE_X + a);
         c->u_drag[a] = grid_field(&s->grid);
-        fields_add(&s->fields,
-                   (struct field){name[a], "m s-1", "velocity at which the drag was taken",
-                                  (enum place)(PLACE_FACE_X + a), KIND_REAL,
-                                  (void **)&c->u_drag[a], FIELD_STATE});
+        c->swing[a] = grid_field(&s->grid);
+        fields_add(&s->fields, (struct field){name[a][0], "m s-1", "velocity the drag was taken at",
+                                              place, KIND_REAL, (void **)&c->u_drag[a],
+                                              FIELD_STATE});
+        fields_add(&s->fields, (struct field){name[a][1], "m s-1", "its last wish to change", place,
+                                              KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
         c->KV[a] = grid_field(&s->grid);
         c->Q[a] = grid_field(&s->grid);
         c->M[a] = grid_field(&s->grid);
@@ -84,6 +88,7 @@ void coupling_free(struct sim *s)
     for (int a = 0; a < 3; a++) {
         xfree(c->KV[a]);
         xfree(c->u_drag[a]);
+        xfree(c->swing[a]);
         xfree(c->Q[a]);
         xfree(c->M[a]);
     }
@@ -223,13 +228,14 @@ static void drag_velocities(struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
     for (int a = 0; a < 3; a++) {
-        double *const u = s->coupling.u_drag[a];
-        const double keep = s->coupling.takes == 0 ? 0.0 : 0.5;
+        double *const u = s->coupling.u_drag[a], *const swing = s->coupling.swing[a];
 #pragma omp parallel for schedule(static)
-        for (size_t c = 0; c < s->grid.total; c++)
-            u[c] = keep * u[c] + (1.0 - keep) * (f->eps_f[a][c] * f->u[a][c]);
+        for (size_t c = 0; c < s->grid.total; c++) {
+            const double wish = f->eps_f[a][c] * f->u[a][c] - u[c];
+            u[c] += wish * swing[c] < 0.0 ? 0.5 * wish : wish;
+            swing[c] = wish;
+        }
     }
-    s->coupling.takes++;
 }
 
 /* Superficial velocity of a cell. */

@@ -16,9 +16,9 @@
  * momentum handed over cancels to round-off. The pressure and viscous forces, V_p G, are handed
  * over with the same weights.
  *
- * kappa is taken at the mean of the velocity at hand and the one it was taken at before: for a law
- * that is quadratic in the velocity this is Newton's step, where the velocity at hand alone would
- * swing between two values for ever once dt B/rho is large.
+ * kappa is taken at the velocity at hand; but where that swings about the one it was taken at before,
+ * at the mean of the two: for a law that is quadratic in the velocity this is Newton's step, where
+ * the velocity at hand alone would swing for ever once dt B/rho is large.
  *
  * Drag is implicit on both phases. With theta = dt kappa / m for a grain that is free to move,
  *   kappa' = kappa/(1 + theta),   v' = v + (dv - dt F_d/m)
@@ -38,7 +38,7 @@ struct coupling {
     bool implicit;
     bool pressure_gradient, viscous, buoyancy; /* forces on grains besides drag */
     double eps_min;        /* smaller fluid fractions stop the run */
-    long calls, takes;     /* of coupling_load, of coupling_drag since the start */
+    long calls;            /* of coupling_load since the start */
     int reach;             /* shares per grain, at most */
     int *n_shares;         /* per grain */
     struct share *shares;  /* n x reach */
@@ -48,6 +48,7 @@ struct coupling {
     vec3 *pos_load;        /* m at the last fluid step (a grain field), for the ledger's work */
     vec3 *v_ref;           /* m/s, v' */
     double *u_drag[3];     /* m/s on faces, superficial, at which kappa was taken (state) */
+    double *swing[3];      /* m/s, how it wished to change the last time (state) */
     double *eps;           /* fluid fraction as the grains see it, ghosts filled */
     double *K, *KV[3];     /* cell sums, kg/s and N */
     double *Q[3], *M[3];   /* on cells: (m_f U_f) and m_f^2, means of the two faces */

@@ -61,10 +61,11 @@ before=$(state)
 sed -e "s/\"none\"/\"$name\"/" -e 's/return 0\.0;/return 1.25;/' drag/none.c > "drag/$name.c"
 grep -q '1\.25' "drag/$name.c" && grep -q "\"$name\"" "drag/$name.c"
 check $? "a throw-away law: one new file, drag/$name.c"
-binary=$(make -s WERROR=-Werror DRAG="$name" 2> build/throwaway.log | tail -n 1)
+make -s WERROR=-Werror DRAG="$name" silt > build/throwaway.log 2>&1
+binary=$(make -s DRAG="$name" where)
 [ -n "$binary" ] && [ -x "$binary" ]
 check $? "a binary links with it$(grep -m 1 -E 'error|undefined' build/throwaway.log | sed 's/^/: /')"
-[ -x "$binary" ] && strings "$binary" | grep -q "^$name$"
+[ -x "$binary" ] && grep -q -a "$name" "$binary"
 check $? "the binary holds it"
 if [ -x run.sh ]; then
     listed=$(./run.sh modules 2> /dev/null | grep -c "$name")

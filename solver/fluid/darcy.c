@@ -247,14 +247,16 @@ static void solve_head(struct sim *s)
     set_velocity(s, w->p_new);
 }
 
-/* Largest change of a velocity since u_before, over the largest velocity. */
+/* Largest change of a velocity since u_before, and its distance from the one that the drag was taken
+ * at, over the largest velocity. */
 static double change(const struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
     double most = 0.0, fastest = 0.0;
     for (int a = 0; a < 3; a++)
         for (size_t c = 0; c < s->grid.total; c++) {
-            most = fmax(most, fabs(f->u[a][c] - f->work->u_before[a][c]));
+            const double off = f->eps_f[a][c] * f->u[a][c] - s->coupling.u_drag[a][c];
+            most = fmax(most, fmax(fabs(f->u[a][c] - f->work->u_before[a][c]), fabs(off)));
             fastest = fmax(fastest, fabs(f->u[a][c]));
         }
     return fastest > 0.0 ? most / fastest : 0.0;
