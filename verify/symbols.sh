@@ -65,8 +65,9 @@ make -s WERROR=-Werror DRAG="$name" silt > build/throwaway.log 2>&1
 binary=$(make -s DRAG="$name" where)
 [ -n "$binary" ] && [ -x "$binary" ]
 check $? "a binary links with it$(grep -m 1 -E 'error|undefined' build/throwaway.log | sed 's/^/: /')"
-[ -x "$binary" ] && grep -q -a "$name" "$binary"
-check $? "the binary holds it"
+refusal=$("$binary" scenes/bounce.ini -o build/throwaway 2>&1)
+[[ $refusal == *"built with $name"* ]]
+check $? "the binary holds it: it refuses a scene of another law"
 if [ -x run.sh ]; then
     listed=$(./run.sh modules 2> /dev/null | grep -c "$name")
     [ "$listed" -ge 1 ]

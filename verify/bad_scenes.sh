@@ -1,0 +1,176 @@
+#!/usr/bin/env bash
+# verify/bad_scenes.sh - wrong scenes are refused: exit 2, file:line, key, value, what is allowed, all
+# errors at once, and nothing written.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 2
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+passed=0
+failed=0
+
+cat > "$tmp/good.ini" <<'INI'
+; a small bed in a slow flow
+[modules]
+contact  = linear
+drag     = ergun
+porosity = divided
+fluid    = navier_stokes
+[domain]
+size  = 10 10 20 mm
+cells = 5 5 10
+x     = periodic
+y     = periodic
+z-    = inflow
+z+    = outflow
+[grains beads]
+diameter = 1 mm
+density  = 2500 kg/m3
+count    = 50
+fill     = random
+[material beads]
+stiffness   = 1000 N/m
+restitution = 0.8
+friction    = 0.3
+[fluid]
+density   = 1000 kg/m3
+viscosity = 1 mPa s
+dt        = 0.1 ms
+[flow]
+velocity = 1 mm/s
+[run]
+end = 1 ms
+dt  = 2 us
+INI
+
+./run.sh "$tmp/good.ini" -o "$tmp/good" > "$tmp/log" 2>&1 || { cat "$tmp/log"; echo "FAIL the good scene runs"; failed=1; }
+slots=$(build/release/front slots "$tmp/good.ini")
+binary=$(make -s $slots where)
+
+verdict() { # good-or-not, text
+    if [ "$1" = 0 ]; then
+        passed=$((passed + 1))
+        echo "ok   $2"
+    else
+        failed=$((failed + 1))
+        echo "FAIL $2"
+        sed 's/^/     /' "$tmp/err" | head -n 5
+    fi
+}
+
+# The last run: exit code 2, this on stderr, no folder.
+judge() { # status, pattern, name
+    local good=0
+    [ "$1" = 2 ] || good=1
+    grep -q -E -- "$2" "$tmp/err" || good=1
+    [ ! -e "$tmp/out" ] || good=1
+    verdict $good "$3"
+    rm -rf "$tmp/out"
+}
+
+# edit NAME SED-EXPRESSION PATTERN: the good scene, edited
+edit() {
+    local status=0
+    sed -e "$2" "$tmp/good.ini" > "$tmp/bad.ini"
+    cmp -s "$tmp/good.ini" "$tmp/bad.ini" && echo "FAIL $1: the edit changes nothing" && failed=$((failed + 1))
+    "$binary" "$tmp/bad.ini" -o "$tmp/out" > /dev/null 2> "$tmp/err" || status=$?
+    judge $status "$3" "$1"
+}
+
+# with NAME PATTERN OVERRIDE...: the good scene, overridden
+with() {
+    local name=$1 pattern=$2 status=0
+    shift 2
+    "$binary" "$tmp/good.ini" "$@" -o "$tmp/out" > /dev/null 2> "$tmp/err" || status=$?
+    judge $status "$pattern" "$name"
+}
+
+# whole NAME PATTERN FILE [ARGUMENT...]: through run.sh
+whole() {
+    local name=$1 pattern=$2 status=0
+    shift 2
+    ./run.sh "$@" -o "$tmp/out" > /dev/null 2> "$tmp/err" || status=$?
+    judge $status "$pattern" "$name"
+}
+
+bad="$tmp/bad.ini"
+edit "unknown key" 's/^viscosity/viscositty/' "$bad:25: fluid.viscositty = 1 mPa s: no such key \(did you mean fluid.viscosity\?\)"
+edit "unknown section" 's/^\[flow\]/[flwo]/' "$bad:27: \[flwo\]: no such section \(did you mean flow\?\)"
+edit "repeated key" '/^count/a count = 60' "$bad:18: grains beads.count = 60: given twice, first in line 17"
+edit "repeated section" '/^\[run\]/i [fluid]\ndensity = 900 kg/m3' "$bad:29: \[fluid\]: given twice, first in line 23"
+edit "wrong dimension" 's/2500 kg\/m3/2500 kg/' "$bad:16: grains beads.density = 2500 kg: .*wrong dimension.*kg m-3"
+edit "missing unit" 's/diameter = 1 mm/diameter = 1/' "$bad:15: grains beads.diameter = 1: needs a unit, as in m"
+edit "unknown unit" 's/1 mPa s/1 mPaa s/' "$bad:25: fluid.viscosity = 1 mPaa s: .*is not a unit"
+edit "unit on a pure number" 's/restitution = 0.8/restitution = 0.8 mm/' "$bad:21: material beads.restitution = 0.8 mm: .*pure number"
+edit "restitution above 1" 's/restitution = 0.8/restitution = 1.3/' "$bad:21: material beads.restitution = 1.3: must lie in \(0, 1\]"
+edit "restitution zero" 's/restitution = 0.8/restitution = 0/' "must lie in \(0, 1\]"
+edit "negative friction" 's/friction    = 0.3/friction = -1/' "$bad:22: material beads.friction = -1: must lie in \[0, inf\)"
+edit "negative size" 's/10 10 20 mm/10 -10 20 mm/' "$bad:8: domain.size = 10 -10 20 mm: must lie in \(0, 1e6\] m"
+edit "two numbers for three" 's/10 10 20 mm/10 10 mm/' "$bad:8: domain.size = 10 10 mm: must be three numbers"
+edit "four numbers for three" 's/10 10 20 mm/10 10 20 5 mm/' "$bad:8: domain.size"
+edit "a word for a number" 's/= 1000 N\/m/= stiff/' "$bad:20: material beads.stiffness = stiff: must be one number"
+edit "not a number" 's/= 1000 N\/m/= nan N\/m/' "$bad:20: material beads.stiffness = nan N/m: must be one number"
+edit "infinite" 's/= 1000 N\/m/= 1e999 N\/m/' "$bad:20: material beads.stiffness = 1e999"
+edit "half a grain" 's/^count    = 50/count = 50.5/' "$bad:17: grains beads.count = 50.5: must be one whole number"
+edit "cells zero" 's/^cells = 5 5 10/cells = 5 0 10/' "$bad:9: domain.cells = 5 0 10: .*each 1 at least"
+edit "no cells" '/^cells/d' "domain.cells.*a scene with a fluid needs"
+edit "choice that is none" 's/^fill     = random/fill = rain/' "$bad:18: grains beads.fill = rain: must be one of lattice"
+edit "grains that cannot fit" 's/^count    = 50/count = 1000000/' "$bad:17: grains beads.count = 1000000: the grains fill .* % of their region"
+edit "grain wider than the box" 's/diameter = 1 mm/diameter = 25 mm/' "$bad:15: grains beads.diameter = 25 mm: is wider than the region"
+edit "periodic on one side" 's/^z-    = inflow/z- = periodic/' "$bad:12: domain.z- = periodic: periodic must hold for both sides"
+edit "side given twice" 's/^y     = periodic/&\ny- = wall/' "domain.y- = wall: contradicts domain.y"
+edit "inflow without outflow" 's/^z+    = outflow/z+ = wall/' "an inflow side needs an outflow side"
+edit "head with Navier-Stokes" 's/^z+    = outflow/z+ = head/' "$bad:13: domain.z\+ = head: head sides are for fluid = darcy"
+edit "grain step past its limit" 's/^dt  = 2 us/dt = 90 us/' "$bad:31: run.dt = 90 us: .*a quarter of a contact.* allows"
+edit "fluid step past its limit" 's/0.1 ms/2 s/' "$bad:26: fluid.dt = 2 s: .*allows"
+edit "grain step above the fluid's" 's/^dt  = 2 us/dt = 1 ms/' "run.dt = 1 ms: must not be longer than fluid.dt"
+edit "required key missing" '/^end/d' "$bad:29: run.end: must be given"
+edit "required section missing" '/^\[fluid\]/,/^dt/d' "fluid.density: must be given"
+edit "material missing" '/^\[material/,/^friction/d' "material beads.stiffness: must be given"
+edit "section without a name" 's/^\[grains beads\]/[grains]/' "$bad:14: \[grains\]: needs a name"
+edit "unclosed section" 's/^\[flow\]/[flow/' "$bad:27: .*without its closing bracket"
+edit "line that is nothing" 's/^velocity = .*/velocity 1 mm\/s/' "$bad:28: .*neither a \[section\]"
+edit "key before any section" '1s/.*/end = 1 s/' "$bad:1: end = 1 s: stands before the first"
+edit "key that nothing uses" 's/^fill     = random/&\nspacing = 2 mm/' "$bad:19: grains beads.spacing = 2 mm: nothing in this scene uses it"
+edit "pair of no materials" '$a [pair beads-steel]\nfriction = 0.1' "pair beads-steel.friction = 0.1: nothing in this scene uses it"
+edit "wall of no material" '$a [wall lid]\npoint = 0 0 15 mm\nnormal = 0 0 -1\nmaterial = steel' "wall lid.material = steel: there is no \[material steel\]"
+edit "staircase without steps" 's/^velocity = 1 mm\/s/&\nvelocity_end = 2 mm\/s/' "flow.steps.*at least 2"
+edit "bed file missing" 's/^fill     = random/fill = file\nfile = nosuch.txt/; /^count/d' "grains beads.file = nosuch.txt: nosuch.txt: No such file"
+printf 'x y z d\n' > "$tmp/bed.txt"
+edit "bed file that is no bed" "s/^fill     = random/fill = file\nfile = bed.txt/; /^count/d" "bed.txt:1: must hold x y z diameter"
+edit "unit cells that do not fit" 's/^fill     = random/fill = unit_cell\nspacing = 3 mm/; /^count/d' "grains beads.spacing = 3 mm: the region holds 3.33333 unit cells"
+edit "several errors at once, first" 's/= 0.8/= 1.3/; s/1 mPa s/1 kg/' "$bad:21: material beads.restitution = 1.3"
+grep -q "$bad:25: fluid.viscosity = 1 kg" "$tmp/err"
+verdict $? "several errors at once, second"
+with "override of an unknown key" "command line: fluid.densty = 1000: no such key \(did you mean fluid.density\?\)" fluid.densty=1000
+with "override out of range" "command line: material beads.restitution = 2: must lie in" "material beads.restitution=2"
+with "override without a key" "command line: fluid = 3: must read section.key=value|fluid=3" fluid=3
+with "another binary's scene" "command line: modules.drag = stokes: this binary was built with ergun" modules.drag=stokes
+
+whole "module that does not exist" "command line: modules.drag = erghun: must be one of .*did you mean ergun" "$tmp/good.ini" modules.drag=erghun
+whole "module by a path" "modules.drag = ../drag/ergun: must be one of" "$tmp/good.ini" modules.drag=../drag/ergun
+whole "slot that does not exist" "modules.drug = ergun: no such key \(did you mean modules.drag\?\)" "$tmp/good.ini" modules.drug=ergun
+whole "no such scene" "nosuch.ini: No such file" nosuch.ini
+: > "$tmp/empty.ini"
+whole "empty file" "empty.ini: the file holds no \[section\]" "$tmp/empty.ini"
+printf '; only a comment\n\n' > "$tmp/comment.ini"
+whole "only comments" "comment.ini: the file holds no \[section\]" "$tmp/comment.ini"
+head -c 4096 /dev/urandom > "$tmp/garbage.ini"
+printf '\000\001' | cat - "$tmp/garbage.ini" > "$tmp/binary.ini"
+whole "binary garbage" "binary.ini:1: the file is not text" "$tmp/binary.ini"
+whole "a folder" "is a directory" "$tmp"
+ln -s "$tmp/nowhere" "$tmp/dangling.ini"
+whole "unreadable file" "dangling.ini: No such file" "$tmp/dangling.ini"
+whole "no such option" "no such option: --fast" "$tmp/good.ini" --fast
+whole "two scenes" "one scene only" "$tmp/good.ini" scenes/bounce.ini
+whole "threads that are none" "-j takes a number of threads" "$tmp/good.ini" -j many
+
+# What is good must stay good: CRLF, indentation, UTF-8 and a mark before it, inline comments.
+sed -e 's/^\([a-z]\)/   \1/; s/1 mPa s/1 mPa s  ; water, \xc2\xb5/; s/$/\r/; 1s/^/\xef\xbb\xbf/' "$tmp/good.ini" > "$tmp/crlf.ini"
+"$binary" "$tmp/crlf.ini" -o "$tmp/crlf" > /dev/null 2> "$tmp/err"
+verdict $? "CRLF, indentation, UTF-8 and inline comments are good"
+touch "$tmp/file"
+"$binary" "$tmp/good.ini" -o "$tmp/file/out" > /dev/null 2> "$tmp/err"
+[ $? = 4 ]
+verdict $? "a folder that cannot be made is exit 4"
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
