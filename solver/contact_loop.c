@@ -95,7 +95,7 @@ void contact_free(struct sim *s)
 static void make_room(struct sim *s)
 {
     struct contact_work *const w = s->contacts;
-    if (w->capacity >= s->neighbours.n_slots)
+    if (w->record && w->capacity >= s->neighbours.n_slots)
         return;
     xfree(w->record);
     xfree(w->record_of);

@@ -8,17 +8,24 @@ double fluid_expected_velocity(const struct sim *s)
     return fmax(s->flow.velocity, s->flow.velocity_end) / (s->grains.n > 0 ? 0.4 : 1.0);
 }
 
+double fluid_courant_limit(const struct sim *s)
+{
+    const double *const h = s->grid.h, u = fluid_expected_velocity(s);
+    return u > 0.0 ? COURANT_MOST * fmin(h[0], fmin(h[1], h[2])) / u : (double)INFINITY;
+}
+
+double fluid_viscous_limit(const struct sim *s)
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; a++)
+        sum += s->grid.n[a] > 1 ? 1.0 / (s->grid.h[a] * s->grid.h[a]) : 0.0;
+    sum *= 4.0 * s->fluid.mu / s->fluid.rho;
+    return sum > 0.0 ? 1.0 / sum : (double)INFINITY;
+}
+
 static double auto_step(const struct sim *s)
 {
-    const double *const h = s->grid.h, nu = s->fluid.mu / s->fluid.rho;
-    double limit = (double)INFINITY, sum = 0.0;
-    for (int a = 0; a < 3; a++) {
-        if (fluid_expected_velocity(s) > 0.0)
-            limit = fmin(limit, h[a] / fluid_expected_velocity(s));
-        sum += s->grid.n[a] > 1 ? 2.0 * nu / (h[a] * h[a]) : 0.0;
-    }
-    if (sum > 0.0)
-        limit = fmin(limit, 1.0 / sum);
+    const double limit = fmin(fluid_courant_limit(s), fluid_viscous_limit(s));
     return fmin(0.5 * limit, s->run.end / 10.0);
 }
 
@@ -241,9 +248,9 @@ static _Noreturn void die_velocity(const struct sim *s, int a, int c, double cou
             i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], s->t);
     die(EXIT_UNSTABLE,
         "the Courant number is %.3g in cell %d %d %d (centre %.4g %.4g %.4g m, %c velocity %.4g m/s, "
-        "fluid fraction %.3g) at t = %.9g s: more than 1; take fluid.dt below %.3g s",
+        "fluid fraction %.3g) at t = %.9g s: more than %g; take fluid.dt below %.3g s",
         courant, i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], 'x' + a, u,
-        s->fluid.eps[c], s->t, s->fluid.dt / courant);
+        s->fluid.eps[c], s->t, COURANT_MOST, COURANT_MOST * s->fluid.dt / courant);
 }
 
 void fluid_guard(struct sim *s, bool limited)
@@ -256,13 +263,17 @@ void fluid_guard(struct sim *s, bool limited)
         for (int j = 1; j <= g->n[1]; j++)
             for (int i = 1; i <= g->n[0]; i++) {
                 const int c = cell(g, i, j, k);
+                double courant = 0.0;
+                int fast = 0;
                 for (int a = 0; a < 3; a++) {
-                    const double u = fabs(f->u[a][c]), courant = u * f->dt / g->h[a];
-                    if (!(courant <= 1e300) || (limited && courant > 1.0))
-                        die_velocity(s, a, c, courant);
-                    f->courant = fmax(f->courant, courant);
+                    const double u = fabs(f->u[a][c]);
+                    courant += u * f->dt / g->h[a];
+                    fast = !(u / g->h[a] <= fabs(f->u[fast][c]) / g->h[fast]) ? a : fast;
                     fastest = fmax(fastest, u * f->eps_f[a][c]);
                 }
+                if (!(courant <= 1e300) || (limited && courant > COURANT_MOST))
+                    die_velocity(s, fast, c, courant);
+                f->courant = fmax(f->courant, courant);
                 worst = fmax(worst, fabs(fluid_divergence(s, c)));
             }
     f->divergence = fastest > 0.0 ? worst * least / fastest : 0.0;

@@ -4,7 +4,8 @@
  *               of the two faces beside it; u_a there is the mean (centred), the upwind value, or the
  *               upwind value with half of van Leer's slope [vanLeer74]
  *   stress      tau = mu (grad u + grad u^T - 2/3 div u I), at centres and edges
- * On the face of an open side both are left out: the flow leaves it without change. */
+ * On the face of an open side the flow does not change along the normal: no convection, and of the
+ * stress the part across. */
 #include "momentum.h"
 
 #include "fluid_state.h"
@@ -136,21 +137,24 @@ void momentum_viscous(const struct sim *s, const struct momentum *m, int a, doub
         for (int j = 1; j <= last[1]; j++)
             for (int i = 1; i <= last[0]; i++) {
                 const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
+                const bool inside = s->domain.periodic[a] ? n <= g->n[a] : n > 1 && n <= g->n[a];
                 double sum = 0.0;
-                if (s->domain.periodic[a] ? n <= g->n[a] : n > 1 && n <= g->n[a]) {
+                if (inside) {
                     const double hi = 2.0 * ((u[c + sa] - u[c]) / ha - m->div[c] / 3.0);
                     const double lo = 2.0 * ((u[c] - u[c - sa]) / ha - m->div[c - sa] / 3.0);
                     sum = (hi - lo) / ha;
-                    for (int b = 0; b < 3; b++) {
-                        if (b == a)
-                            continue;
-                        const int sb = g->s[b];
-                        const double hb = g->h[b], *const v = f->u[b];
-                        const double up = (u[c + sb] - u[c]) / hb +
-                                          (v[c + sb] - v[c + sb - sa]) / ha;
-                        const double down = (u[c] - u[c - sb]) / hb + (v[c] - v[c - sa]) / ha;
-                        sum += (up - down) / hb;
+                }
+                for (int b = 0; b < 3 && (inside || face_solved(s, a, n)); b++) {
+                    if (b == a)
+                        continue;
+                    const int sb = g->s[b];
+                    const double hb = g->h[b], *const v = f->u[b];
+                    double up = (u[c + sb] - u[c]) / hb, down = (u[c] - u[c - sb]) / hb;
+                    if (inside) { /* along an open side the flow does not change across it */
+                        up += (v[c + sb] - v[c + sb - sa]) / ha;
+                        down += (v[c] - v[c - sa]) / ha;
                     }
+                    sum += (up - down) / hb;
                 }
                 out[c] = f->mu * sum;
             }

@@ -29,10 +29,11 @@ struct fluid {
     double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
     double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the rest */
     struct fluid_work *work; /* the answer's own: solver, scratch, fields of steps before */
+    long steps;        /* taken so far */
     int iterations;    /* of the last pressure solve */
     double residual;   /* relative, of the last pressure solve */
     double divergence; /* largest |d(eps)/dt + div(eps u)| h / U after the last step */
-    double courant;    /* largest u dt / h at the last step */
+    double courant;    /* largest sum over directions of u dt / h at the last step */
 };
 
 extern const struct about fluid_about;
