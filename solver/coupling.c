@@ -49,11 +49,11 @@ void coupling_create(struct sim *s)
     c->shares = xalloc(n * (size_t)c->reach, sizeof *c->shares);
     c->kappa = xalloc(n * (size_t)c->reach, sizeof *c->kappa);
     c->v_ref = xalloc(n, sizeof *c->v_ref);
+    c->slack = xalloc(n, sizeof *c->slack);
     c->drag = xalloc(n, sizeof *c->drag);
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);
     c->eps = grid_field(&s->grid);
-    c->K = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
         static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
                                                {"drag_velocity_y", "drag_swing_y"},
@@ -66,6 +66,7 @@ void coupling_create(struct sim *s)
                                               FIELD_STATE});
         fields_add(&s->fields, (struct field){name[a][1], "m s-1", "its last wish to change", place,
                                               KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
+        c->K[a] = grid_field(&s->grid);
         c->KV[a] = grid_field(&s->grid);
         c->Q[a] = grid_field(&s->grid);
         c->M[a] = grid_field(&s->grid);
@@ -82,10 +83,11 @@ void coupling_free(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     void *const all[] = {c->n_shares, c->shares, c->kappa, c->v_ref, c->drag,
-                         c->vel_old,  c->pos_load, c->eps, c->K};
+                         c->vel_old,  c->pos_load, c->eps, c->slack};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     for (int a = 0; a < 3; a++) {
+        xfree(c->K[a]);
         xfree(c->KV[a]);
         xfree(c->u_drag[a]);
         xfree(c->swing[a]);
@@ -161,8 +163,8 @@ static void fluid_fraction(struct sim *s)
         for (int j = 1; j <= g->n[1]; j++)
             for (int i = 1; i <= g->n[0]; i++) {
                 const int at = cell(g, i, j, k);
-                on_grid += c->K[at];
-                c->eps[at] = porosity_displaces ? 1.0 - c->K[at] / g->volume : 1.0;
+                on_grid += c->K[0][at];
+                c->eps[at] = porosity_displaces ? 1.0 - c->K[0][at] / g->volume : 1.0;
                 if (c->eps[at] < least) {
                     least = c->eps[at];
                     least_cell = at;
@@ -175,6 +177,24 @@ static void fluid_fraction(struct sim *s)
     grid_ghosts(g, &s->domain, c->eps);
 }
 
+/* M of coupling.h: m_f^2, mean of the two faces of each cell. */
+static void sense_squares(struct sim *s)
+{
+    struct coupling *const c = &s->coupling;
+    const struct grid *const g = &s->grid;
+    for (int a = 0; a < 3; a++) {
+        const int step = g->s[a];
+#pragma omp parallel for schedule(static)
+        for (int k = 1; k <= g->n[2]; k++)
+            for (int j = 1; j <= g->n[1]; j++)
+                for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
+                    const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
+                    const double hi = 0.5 * (c->eps[at] + c->eps[at + step]);
+                    c->M[a][at] = 0.5 * (lo * lo + hi * hi);
+                }
+    }
+}
+
 void coupling_volume(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
@@ -184,7 +204,7 @@ void coupling_volume(struct sim *s)
     for (int i = 0; i < s->grains.n; i++)
         c->n_shares[i] =
             porosity_shares(g, &s->domain, &s->grains, i, &c->shares[(size_t)i * c->reach]);
-    spread_volume(s, c->K);
+    spread_volume(s, c->K[0]);
     fluid_fraction(s);
     memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
     if (c->ways == 2)
@@ -198,10 +218,11 @@ void coupling_volume(struct sim *s)
     }
     for (int a = 0; a < 3; a++)
         face_mean(s, f->eps, a, f->eps_f[a]);
+    sense_squares(s);
 }
 
-/* Q and M of coupling.h: what a grain at rest or moving feels in each cell, from the faces. */
-static void sense_cells(struct sim *s)
+/* Q of coupling.h: m_f times the superficial velocity, mean of the two faces of each cell. */
+static void sense_flow(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     const struct fluid *const f = &s->fluid;
@@ -211,14 +232,12 @@ static void sense_cells(struct sim *s)
 #pragma omp parallel for schedule(static)
         for (int k = 1; k <= g->n[2]; k++)
             for (int j = 1; j <= g->n[1]; j++)
-                for (int i = 1; i <= g->n[0]; i++) {
-                    const int at = cell(g, i, j, k), up = at + step;
+                for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
+                    const int up = at + step;
                     const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
                     const double hi = 0.5 * (c->eps[at] + c->eps[up]);
-                    const double flow_lo = f->eps_f[a][at] * f->u[a][at];
-                    const double flow_hi = f->eps_f[a][up] * f->u[a][up];
-                    c->Q[a][at] = 0.5 * (lo * flow_lo + hi * flow_hi);
-                    c->M[a][at] = 0.5 * (lo * lo + hi * hi);
+                    c->Q[a][at] = 0.5 * (lo * (f->eps_f[a][at] * f->u[a][at]) +
+                                         hi * (f->eps_f[a][up] * f->u[a][up]));
                 }
     }
 }
@@ -247,7 +266,7 @@ static vec3 superficial(const struct sim *s, int at)
               0.5 * (u[2][at] + u[2][at + s->grid.s[2]]));
 }
 
-/* kappa' and v' of one grain; returns theta. */
+/* kappa, 1/(1 + theta) and v' of one grain; returns its largest theta. */
 static double grain_drag(struct sim *s, int i)
 {
     struct coupling *const c = &s->coupling;
@@ -255,23 +274,26 @@ static double grain_drag(struct sim *s, int i)
     const struct share *const w = &c->shares[(size_t)i * c->reach];
     double *const kappa = &c->kappa[(size_t)i * c->reach];
     const double diameter = cbrt(6.0 / 3.14159265358979323846 * g->volume[i]);
-    double total = 0.0;
+    double theta[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < c->n_shares[i]; k++) {
-        const double eps = c->eps[w[k].cell];
-        const vec3 u = v3_scale(1.0 / eps, superficial(s, w[k].cell));
+        const int at = w[k].cell;
+        const double eps = c->eps[at];
+        const vec3 u = v3_scale(1.0 / eps, superficial(s, at));
         kappa[k] = drag_kappa(eps, v3_norm(v3_sub(u, g->vel[i])), diameter, s->fluid.rho,
                               s->fluid.mu);
-        total += w[k].weight * kappa[k];
+        for (int a = 0; a < 3; a++)
+            theta[a] += w[k].weight * kappa[k] * c->M[a][at] / (eps * eps);
     }
-    const double theta = s->fluid.dt * total * g->inv_mass[i];
+    const double per_mass = s->fluid.dt * g->inv_mass[i];
+    const vec3 rate = v3(per_mass * theta[0], per_mass * theta[1], per_mass * theta[2]);
     c->v_ref[i] = g->vel[i];
-    if (c->implicit && theta > 0.0) {
+    c->slack[i] = v3(1.0, 1.0, 1.0);
+    if (c->implicit && per_mass > 0.0) {
         const vec3 dv = v3_sub(g->vel[i], c->vel_old[i]);
-        c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), -s->fluid.dt * g->inv_mass[i], c->drag[i]);
-        for (int k = 0; k < c->n_shares[i]; k++)
-            kappa[k] /= 1.0 + theta;
+        c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), -per_mass, c->drag[i]);
+        c->slack[i] = v3(1.0 / (1.0 + rate.x), 1.0 / (1.0 + rate.y), 1.0 / (1.0 + rate.z));
     }
-    return theta;
+    return fmax(rate.x, fmax(rate.y, rate.z));
 }
 
 /* K and KV: kappa'/eps^2 and that times v', per cell, in the order of the grains. */
@@ -282,21 +304,24 @@ static void spread_drag(struct sim *s)
     {
         int lo, hi;
         slab(&s->grid, &lo, &hi);
-        double *const out[4] = {c->K, c->KV[0], c->KV[1], c->KV[2]};
-        for (int q = 0; q < 4; q++)
-            memset(out[q] + lo, 0, (size_t)(hi - lo) * sizeof(double));
+        for (int a = 0; a < 3; a++) {
+            memset(c->K[a] + lo, 0, (size_t)(hi - lo) * sizeof(double));
+            memset(c->KV[a] + lo, 0, (size_t)(hi - lo) * sizeof(double));
+        }
         for (int i = 0; i < s->grains.n; i++) {
             const struct share *const w = &c->shares[(size_t)i * c->reach];
+            const double slack[3] = {c->slack[i].x, c->slack[i].y, c->slack[i].z};
+            const double v[3] = {c->v_ref[i].x, c->v_ref[i].y, c->v_ref[i].z};
             for (int k = 0; k < c->n_shares[i]; k++) {
                 const int at = w[k].cell;
                 if (at < lo || at >= hi)
                     continue;
                 const double part =
                     w[k].weight * c->kappa[(size_t)i * c->reach + k] / (c->eps[at] * c->eps[at]);
-                c->K[at] += part;
-                c->KV[0][at] += part * c->v_ref[i].x;
-                c->KV[1][at] += part * c->v_ref[i].y;
-                c->KV[2][at] += part * c->v_ref[i].z;
+                for (int a = 0; a < 3; a++) {
+                    c->K[a][at] += part * slack[a];
+                    c->KV[a][at] += part * slack[a] * v[a];
+                }
             }
         }
     }
@@ -309,10 +334,10 @@ static void drag_on_faces(struct sim *s)
     struct fluid *const f = &s->fluid;
     const size_t total = s->grid.total;
     const double inverse = 1.0 / s->grid.volume;
-    grid_ghosts(&s->grid, &s->domain, c->K);
     for (int a = 0; a < 3; a++) {
+        grid_ghosts(&s->grid, &s->domain, c->K[a]);
         grid_ghosts(&s->grid, &s->domain, c->KV[a]);
-        face_mean(s, c->K, a, f->drag[a]);
+        face_mean(s, c->K[a], a, f->drag[a]);
         face_mean(s, c->KV[a], a, f->drag_s[a]);
         for (size_t k = 0; k < total; k++) {
             const double m2 = f->eps_f[a][k] * f->eps_f[a][k] * inverse;
@@ -349,6 +374,7 @@ static vec3 grain_load(struct sim *s, int i)
     const struct grains *const g = &s->grains;
     const struct share *const w = &c->shares[(size_t)i * c->reach];
     const double v[3] = {c->v_ref[i].x, c->v_ref[i].y, c->v_ref[i].z};
+    const double slack[3] = {c->slack[i].x, c->slack[i].y, c->slack[i].z};
     double drag[3] = {0.0, 0.0, 0.0}, stress[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < c->n_shares[i]; k++) {
         const int at = w[k].cell;
@@ -356,7 +382,7 @@ static vec3 grain_load(struct sim *s, int i)
             w[k].weight * c->kappa[(size_t)i * c->reach + k] / (c->eps[at] * c->eps[at]);
         for (int a = 0; a < 3; a++) {
             const double *const G = s->fluid.stress[a];
-            drag[a] += part * (c->Q[a][at] - v[a] * c->M[a][at]);
+            drag[a] += slack[a] * part * (c->Q[a][at] - v[a] * c->M[a][at]);
             stress[a] += w[k].weight * 0.5 * (G[at] + G[at + s->grid.s[a]]);
         }
     }
@@ -394,7 +420,7 @@ void coupling_load(struct sim *s)
     struct coupling *const c = &s->coupling;
     struct grains *const g = &s->grains;
     const double buoyant = c->buoyancy ? -s->fluid.rho : 0.0;
-    sense_cells(s);
+    sense_flow(s);
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < g->n; i++) {
         const vec3 exchanged = grain_load(s, i);

@@ -20,7 +20,9 @@
  * at the mean of the two: for a law that is quadratic in the velocity this is Newton's step, where
  * the velocity at hand alone would swing for ever once dt B/rho is large.
  *
- * Drag is implicit on both phases. With theta = dt kappa / m for a grain that is free to move,
+ * Drag is implicit on both phases. For a grain that is free to move, with
+ *   theta = (dt/m) sum_c w_pc kappa_pc M_c/eps_c^2   in each direction, M_c the mean of eps_f^2 over
+ *           the two faces of the cell (so theta = dt kappa/m where the porosity is uniform)
  *   kappa' = kappa/(1 + theta),   v' = v + (dv - dt F_d/m)
  * dv being its change of velocity over the last fluid step and F_d the drag then: v' is the
  * velocity that it will have without drag. Stable for any theta, right for grains that others
@@ -42,7 +44,8 @@ struct coupling {
     int reach;             /* shares per grain, at most */
     int *n_shares;         /* per grain */
     struct share *shares;  /* n x reach */
-    double *kappa;         /* n x reach, kg/s, kappa' */
+    double *kappa;         /* n x reach, kg/s */
+    vec3 *slack;           /* 1/(1 + theta) per direction: kappa' over kappa */
     vec3 *drag;            /* N per grain, the last drag force (a grain field) */
     vec3 *vel_old;         /* m/s at the last fluid step (a grain field) */
     vec3 *pos_load;        /* m at the last fluid step (a grain field), for the ledger's work */
@@ -50,7 +53,7 @@ struct coupling {
     double *u_drag[3];     /* m/s on faces, superficial, at which kappa was taken (state) */
     double *swing[3];      /* m/s, how it wished to change the last time (state) */
     double *eps;           /* fluid fraction as the grains see it, ghosts filled */
-    double *K, *KV[3];     /* cell sums, kg/s and N */
+    double *K[3], *KV[3];  /* cell sums, kg/s and N */
     double *Q[3], *M[3];   /* on cells: (m_f U_f) and m_f^2, means of the two faces */
     vec3 to_grains, from_fluid; /* N, drag + stress on all grains / lost by the fluid */
     double eps_least;      /* smallest fluid fraction at this step */
