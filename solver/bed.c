@@ -111,27 +111,6 @@ double bed_law(const struct bed_fluid *f, double eps, double u)
     return phi > 0.0 ? 18.0 * f->mu * phi * drag_factor(&p) * u / (eps * f->d * f->d) : 0.0;
 }
 
-void bed_law_cells(const struct sim *s, int axis, const struct bed_fluid *f, const double *eps,
-                   double u, double *same_flux, double *same_gradient)
-{
-    const struct grid *const g = &s->grid;
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const double n = (double)g->n[b] * g->n[c], h = g->h[axis];
-    *same_flux = *same_gradient = 0.0;
-    for (int layer = 1; layer <= g->n[axis]; layer++) {
-        double loss = 0.0, ease = 0.0;
-        for (int k = 1; k <= g->n[c]; k++)
-            for (int j = 1; j <= g->n[b]; j++) {
-                const int at = layer * g->s[axis] + j * g->s[b] + k * g->s[c];
-                const double gradient = bed_law(f, eps[at], u);
-                loss += gradient;
-                ease += gradient > 0.0 ? 1.0 / gradient : (double)INFINITY;
-            }
-        *same_flux += h * loss / n;
-        *same_gradient += h * n / ease;
-    }
-}
-
 double bed_ergun_velocity(const struct bed_fluid *f, const struct bed_size *bed, double weight)
 {
     const struct bed_fluid inviscid = {.d = f->d, .rho = f->rho};

@@ -45,12 +45,6 @@ double bed_ergun(const struct bed_fluid *f, double eps, double u); /* [Ergun52] 
 double bed_kozeny_carman(const struct bed_fluid *f, double eps, double u, double constant);
 double bed_law(const struct bed_fluid *f, double eps, double u); /* the drag law linked in */
 
-/* Pa; drop of a bed of that size at superficial velocity u summed over the cells of porosity
- * `eps` (a field): with the same flux in all cells of a layer across `axis`, and with the same
- * gradient (0 for a layer with an empty cell). */
-void bed_law_cells(const struct sim *s, int axis, const struct bed_fluid *f, const double *eps,
-                   double u, double *same_flux, double *same_gradient);
-
 /* m/s; velocities at which the drop over a bed is `weight` (Pa): Ergun's, in closed form, and
  * the linked law's, a root; NAN if there is none. */
 double bed_ergun_velocity(const struct bed_fluid *f, const struct bed_size *bed, double weight);

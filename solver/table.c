@@ -57,26 +57,29 @@ static void print_cell(FILE *out, double x, int width)
     if (isnan(x))
         fprintf(out, " %*s", width, "-");
     else
-        fprintf(out, " %*.5g", width, x);
+        fprintf(out, " %*.4g", width, x);
 }
 
 void table_print(FILE *out, const struct table *t)
 {
+    enum { NAME, UNIT };
     int width[TABLE_COLUMNS];
     fprintf(out, "%s\n", t->title);
-    for (int c = 0; c < t->n_columns; c++) {
-        const int name = (int)strlen(t->column[c].name), unit = (int)strlen(t->column[c].unit);
-        width[c] = name > unit ? name : unit;
-        width[c] = width[c] > 11 ? width[c] : 11;
-        fprintf(out, " %*s", width[c], t->column[c].name);
+    for (int what = NAME; what <= UNIT; what++) {
+        for (int c = 0; c < t->n_columns; c++) {
+            const int name = (int)strlen(t->column[c].name), unit = (int)strlen(t->column[c].unit);
+            width[c] = name > unit ? name : unit;
+            width[c] = width[c] > 9 ? width[c] : 9;
+            const char *const u = strcmp(t->column[c].unit, "1") == 0 ? "" : t->column[c].unit;
+            if (!t->column[c].quiet)
+                fprintf(out, " %*s", width[c], what == NAME ? t->column[c].name : u);
+        }
+        fputc('\n', out);
     }
-    fputc('\n', out);
-    for (int c = 0; c < t->n_columns; c++)
-        fprintf(out, " %*s", width[c], t->column[c].unit);
-    fputc('\n', out);
     for (int r = 0; r < t->n_rows; r++) {
         for (int c = 0; c < t->n_columns; c++)
-            print_cell(out, t->row[(size_t)r * t->n_columns + c], width[c]);
+            if (!t->column[c].quiet)
+                print_cell(out, t->row[(size_t)r * t->n_columns + c], width[c]);
         fputc('\n', out);
     }
 }

@@ -56,6 +56,7 @@ enum { TABLE_COLUMNS = 20, FIGURE_CURVES = 8 };
 
 struct column {
     const char *name, *unit, *long_name;
+    bool quiet; /* written to the files but not printed */
 };
 
 struct curve {
