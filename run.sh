@@ -5,6 +5,8 @@ set -euo pipefail
 
 caller=$PWD
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+bin=build/${MODE:-release}             # MODE=debug: with sanitizers
+unset MAKEFLAGS MFLAGS MAKELEVEL       # this may be called by make
 
 usage() {
     cat <<'TEXT'
@@ -63,10 +65,11 @@ install_packages() {
     fi
 }
 
-# make, quiet unless it fails
+# make, quiet unless it fails; one at a time, for runs that start together
 build() {
     local log
-    if ! log=$(make -s -C "$root" -j"$(nproc)" "$@" 2>&1); then
+    mkdir -p build
+    if ! log=$(flock build/lock make -s -j"$(nproc)" "$@" 2>&1); then
         echo "$log" >&2
         refuse "the build has failed"
     fi
@@ -75,12 +78,15 @@ build() {
 # A path as the caller means it: from where he is, or from the project's folder.
 find_scene() {
     local path=$1
-    case $path in
-        /*) ;;
-        *) if [ -e "$caller/$path" ]; then
-            [ "$caller" = "$root" ] || path=$caller/$path
-        fi ;;
-    esac
+    if [[ $path != /* && $caller != "$root" && -e $caller/$path ]]; then
+        path=$caller/$path
+    fi
+    if [ ! -e "$path" ]; then
+        [[ $path == *[./]* ]] ||
+            refuse "$path: No such file, and no such command; there are check, plot, modules, keys," \
+                "install, help"
+        refuse "$path: No such file"
+    fi
     echo "$path"
 }
 
@@ -96,14 +102,22 @@ scene=
 directory=
 threads=()
 overrides=()
+status=0
 parse() {
     while [ $# -gt 0 ]; do
         case $1 in
             -o | -j)
-                [ $# -ge 2 ] || refuse "$1 needs a value"
-                if [ "$1" = -o ]; then directory=$2; else threads=(-j "$2"); fi
+                [ -n "${2:-}" ] || refuse "$1 needs a value"
+                if [ "$1" = -o ]; then
+                    directory=$2
+                else
+                    [[ $2 =~ ^[1-9][0-9]{0,3}$ ]] ||
+                        refuse "-j takes a number of threads, 1 to 1024, not $2"
+                    threads=(-j "$2")
+                fi
                 shift
                 ;;
+            "") refuse "an empty argument (./run.sh help)" ;;
             -*) refuse "no such option: $1 (./run.sh help)" ;;
             *=*) overrides+=("$1") ;;
             *)
@@ -118,27 +132,47 @@ parse() {
 # Builds the binary of the scene; its path in $binary.
 build_scene() {
     local slots
-    build build/release/front
-    slots=$(build/release/front slots "$scene" "${overrides[@]}") || exit $?
-    build $slots silt
-    binary=$(make -s -C "$root" $slots where)
+    build "$bin/front"
+    slots=$("$bin/front" slots "$scene" "${overrides[@]}") || exit $?
+    read -r -a slots <<< "$slots"
+    build "${slots[@]}" silt
+    binary=$(make -s "${slots[@]}" where)
+}
+
+# Runs the program and hands signals on to it: it completes its outputs and ends by itself. In
+# $status its exit code.
+run_program() {
+    local child again=yes
+    # The shell lets what it starts by & ignore Ctrl-C, which the program must not.
+    (trap - INT && exec "$binary" "$scene" "${overrides[@]}" -o "$directory" "${threads[@]}") &
+    child=$!
+    trap 'kill -INT $child 2> /dev/null || :; again=yes' INT
+    trap 'kill -TERM $child 2> /dev/null || :; again=yes' TERM HUP
+    while [ $again = yes ]; do
+        again=no
+        status=0
+        wait $child || status=$?
+    done
+    trap - INT TERM HUP
 }
 
 run_scene() {
-    local status=0
+    local name plot
     scene=$(find_scene "${scene:-scenes/packed_bed.ini}")
     if [ -z "$directory" ]; then
-        directory=out/$(basename "${scene%.*}")
+        name=$(basename "$scene")
+        directory=out/${name%.ini}
+        [ "$caller" = "$root" ] || directory=$root/$directory
     else
         directory=$(from_caller "$directory")
     fi
     build_scene
-    build build/release/plot &
-    local plot=$!
-    "$binary" "$scene" "${overrides[@]}" -o "$directory" "${threads[@]}" || status=$?
-    wait $plot || status=2
-    if [ -e "$directory/run.nc" ] && { [ $status -eq 0 ] || [ $status -ge 128 ]; }; then
-        build/release/plot "$directory" || [ $status -ne 0 ] || status=$?
+    build "$bin/plot" &
+    plot=$!
+    run_program
+    wait $plot || [ $status -ne 0 ] || status=2
+    if [ $status -eq 0 ]; then
+        "$bin/plot" "$directory" || status=$?
     fi
     exit $status
 }
@@ -154,19 +188,20 @@ case ${1:-} in
     modules | keys)
         [ $# -eq 1 ] || refuse "usage: ./run.sh $1"
         install_packages
-        build build/release/front answers
-        build/release/front "$1"
+        build "$bin/front" answers
+        "$bin/front" "$1"
         ;;
     plot)
         [ $# -eq 2 ] || refuse "usage: ./run.sh plot DIR"
         install_packages
-        build build/release/plot
-        build/release/plot "$(from_caller "$2")"
+        build "$bin/plot"
+        "$bin/plot" "$(from_caller "$2")"
         ;;
     check)
         shift
         parse "$@"
         [ -n "$scene" ] || refuse "usage: ./run.sh check SCENE [section.key=value ...]"
+        [ -z "$directory" ] || refuse "check writes nothing: it takes no -o"
         install_packages
         scene=$(find_scene "$scene")
         build_scene

@@ -5,9 +5,10 @@
  *
  * Parameters are per pair of materials: an answer reads [material *] (and [pair A-B], which
  * overrides for that pair of materials, either order) in contact_init and keeps a table of
- * n_materials^2 entries, indexed by touch.pair; it keeps no other state. What a contact remembers
- * lives in its rows of history: `history[k][c]` is double k of contact c, zero when the contact
- * is new, forgotten when it ends (depth below -contact_range). Called from parallel loops. */
+ * n_materials^2 entries, indexed by touch.pair; it keeps no other state. What a contact
+ * remembers lives in its rows of history: `history[k][c]` is double k of contact c, zero when
+ * the contact is new, forgotten when it ends (depth below -contact_range). Called from parallel
+ * loops. */
 #ifndef CONTACT_H
 #define CONTACT_H
 

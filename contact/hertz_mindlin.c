@@ -10,9 +10,9 @@
  * k_t, so that an elastic contact cannot make energy [Thornton13, sec. 3].
  *
  * Misprints of the review mended here: eq. (7) has the tangential overlap under the root of k_t
- * (it is the normal one); eq. (10) has (1 - nu) for (2 - nu) (G* 2.4 times too large at nu = 0.3);
- * eqs (9), (10) name body i twice. zeta gives the restitution asked for although the contact does
- * not pull (restitution.c). */
+ * (it is the normal one); eq. (10) has (1 - nu) for (2 - nu) (G* 2.4 times too large at nu =
+ * 0.3); eqs (9), (10) name body i twice. zeta gives the restitution asked for although the
+ * contact does not pull (restitution.c). */
 #include "contact.h"
 
 #include "../solver/restitution.h"
@@ -27,9 +27,11 @@ const struct about contact_about = {
 const struct key contact_keys[] = {
     {"material", "young", KEY_REAL, "Pa", "(0, inf)", NULL, "Young's modulus"},
     {"material", "poisson", KEY_REAL, "1", "(-1, 0.5]", NULL, "Poisson's ratio"},
-    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL, "rebound speed over impact speed"},
+    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL,
+     "rebound speed over impact speed"},
     {"material", "friction", KEY_REAL, "1", "[0, inf)", NULL, "Coulomb's coefficient"},
-    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed", "restitution of a contact"},
+    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed",
+     "restitution of a contact"},
     {"pair", "friction", KEY_REAL, "1", "mixed | [0, inf)", "mixed", "friction of a contact"},
     {0},
 };

@@ -2,10 +2,10 @@
  *
  *   F_n = k_n depth - 2 zeta sqrt(k_n m_eff) v_n, cut at zero                [CundallStrack79]
  *   F_t = -k_t s - 2 zeta sqrt(k_t m_eff) v_t,   |F_t| <= mu F_n,  ds = v_t dt
- * with k_n = k_i k_j/(k_i + k_j), springs in series. The review's eqs (4), (5) print the inverse,
- * (k_i + k_j)/(k_i k_j), whose unit is m/N. zeta gives the restitution asked for although the
- * contact does not pull (restitution.c). The spring s turns with the contact plane and is cut
- * where the contact slides. */
+ * with k_n = k_i k_j/(k_i + k_j), springs in series. The review's eqs (4), (5) print the
+ * inverse, (k_i + k_j)/(k_i k_j), whose unit is m/N. zeta gives the restitution asked for
+ * although the contact does not pull (restitution.c). The spring s turns with the contact plane
+ * and is cut where the contact slides. */
 #include "contact.h"
 
 #include "../solver/restitution.h"
@@ -22,13 +22,15 @@ const struct key contact_keys[] = {
      "normal stiffness of a body; a pair has the two in series"},
     {"material", "stiffness_ratio", KEY_REAL, "1", "[0, 1]", "0.2857142857142857",
      "tangential over normal stiffness"},
-    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL, "rebound speed over impact speed"},
+    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL,
+     "rebound speed over impact speed"},
     {"material", "friction", KEY_REAL, "1", "[0, inf)", NULL, "Coulomb's coefficient"},
     {"pair", "stiffness", KEY_REAL, "N m-1", "mixed | (0, inf)", "mixed",
      "normal stiffness of a contact; mixed: the two bodies in series"},
     {"pair", "stiffness_ratio", KEY_REAL, "1", "mixed | [0, 1]", "mixed",
      "tangential over normal stiffness of a contact"},
-    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed", "restitution of a contact"},
+    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed",
+     "restitution of a contact"},
     {"pair", "friction", KEY_REAL, "1", "mixed | [0, inf)", "mixed", "friction of a contact"},
     {0},
 };
@@ -78,7 +80,8 @@ void contact_forces(struct touch *t, double (*history)[TOUCH])
         const double px = sx[c] - along * nx, py = sy[c] - along * ny, pz = sz[c] - along * nz;
         const double after = px * px + py * py + pz * pz;
         const double turn = after > 0.0 ? sqrt(before / after) : 0.0;
-        const double ex = turn * px + vx * dt, ey = turn * py + vy * dt, ez = turn * pz + vz * dt;
+        const double ex = turn * px + vx * dt, ey = turn * py + vy * dt,
+                     ez = turn * pz + vz * dt;
         const double kt = k_t[p], ct = damping * sqrt(kt);
         const double qx = -kt * ex - ct * vx, qy = -kt * ey - ct * vy, qz = -kt * ez - ct * vz;
         const double q = sqrt(qx * qx + qy * qy + qz * qz), limit = mu[p] * fn;

@@ -1,7 +1,7 @@
 /* drag/drag.h - contract: what resists the flow through or past the grains?
  *
- * To add a law: copy none.c to drag/NAME.c and write `drag = NAME`. Every answer exports exactly
- * the symbols below.
+ * To add a law: copy none.c to drag/NAME.c and write `drag = NAME`. Every answer exports
+ * exactly the symbols below.
  *
  * One normalisation for all laws (shared by both fluid solvers):
  *   F_d   drag on one grain, WITHOUT the pressure-gradient force (model A, form 27a)

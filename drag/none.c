@@ -1,8 +1,11 @@
 /* drag/none.c - no drag: the fluid slips past the grains. Also the template for new laws. */
 #include "drag.h"
 
-const struct about drag_about = {
-    .name = "none", .summary = "no drag", .equation = "F_d = 0", .source = "", .range = "always"};
+const struct about drag_about = {.name = "none",
+                                 .summary = "no drag",
+                                 .equation = "F_d = 0",
+                                 .source = "",
+                                 .range = "always"};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

@@ -1,10 +1,11 @@
 /* porosity/porosity.h - contract: what does the grid see of a grain?
  *
  * To add an answer: copy none.c to porosity/NAME.c. Every answer exports exactly the symbols
- * below. An answer says in which cells a grain lies, and with which shares (sum 1). The coupling
- * uses the same shares for everything: the grain's volume (fluid fraction), what the grain feels
- * of the fluid, and what the fluid feels of the grain; so whatever is spread is given back with
- * the same weights, and volume and momentum are conserved to round-off, next to walls too.
+ * below. An answer says in which cells a grain lies, and with which shares (sum 1). The
+ * coupling uses the same shares for everything: the grain's volume (fluid fraction), what the
+ * grain feels of the fluid, and what the fluid feels of the grain; so whatever is spread is
+ * given back with the same weights, and volume and momentum are conserved to round-off, next to
+ * walls too.
  *
  * Cells are interior cells (periodic directions wrapped; what would lie outside a wall goes to
  * cells inside). Called from parallel loops. */

@@ -15,9 +15,9 @@
  * A level is one of the fixed bed if it comes before the first whose drop reaches 0.9 of the
  * weight per area; one beyond if its velocity is at least 1.1 times that at which the curve
  * meets the weight. Of levels that are not fixed the laws are those of the bed at the start of
- * the flow. Where the porosity of a layer is uneven the drop exceeds the profile's a little, as the laws
- * are convex in eps. Without grains that move, or without levels beyond, what concerns fluidisation is left out. [Ergun52],
- * [Kozeny27], [Carman37] */
+ * the flow. Where the porosity of a layer is uneven the drop exceeds the profile's a little, as
+ * the laws are convex in eps. Without grains that move, or without levels beyond, what concerns
+ * fluidisation is left out. [Ergun52], [Kozeny27], [Carman37] */
 #include "reference.h"
 
 #include "../drag/drag.h"
@@ -47,8 +47,8 @@ static const double fixed_below = 0.9, beyond_above = 1.1;
 /* Sums over the samples of a level, once closed their means. */
 struct level {
     long samples;
-    double velocity, drop;  /* m/s, Pa */
-    double *eps;            /* per layer */
+    double velocity, drop; /* m/s, Pa */
+    double *eps;           /* per layer */
     struct bed_size size;
     bool fixed;
 };
@@ -351,8 +351,8 @@ void reference_report(struct sim *s)
     bool good = fluidisation(p, sum);
     if (fixed > 0) {
         summary_number(sum, "error_law_profile", profile, "1");
-        good = judge("drop of the fixed bed against the drag law over its porosity profile", profile,
-                     p->tolerance_drop) &&
+        good = judge("drop of the fixed bed against the drag law over its porosity profile",
+                     profile, p->tolerance_drop) &&
                good;
     } else {
         printf("reference: FAIL no level of flow was measured with the bed fixed\n");

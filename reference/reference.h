@@ -14,8 +14,8 @@ extern const struct about reference_about;
 extern const struct key reference_keys[]; /* of section "reference" */
 
 void reference_create(struct sim *s, struct scene *scene); /* after grains and fluid exist */
-void reference_watch(struct sim *s);   /* after every step; cheap */
-void reference_report(struct sim *s);  /* at the end: tables, summary, printed text */
+void reference_watch(struct sim *s);                       /* after every step; cheap */
+void reference_report(struct sim *s); /* at the end: tables, summary, printed text */
 void reference_free(struct sim *s);
 
 #endif

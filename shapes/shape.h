@@ -1,8 +1,8 @@
 /* shapes/shape.h - contract: what is a grain?
  *
- * To add a shape: copy sphere.c to shapes/NAME.c. Every answer exports exactly the symbols below.
- * The contact loop finds pairs whose bounding spheres come close; the shape says where and how
- * deep they overlap, for a block of pairs at a time. Called from parallel loops. */
+ * To add a shape: copy sphere.c to shapes/NAME.c. Every answer exports exactly the symbols
+ * below. The contact loop finds pairs whose bounding spheres come close; the shape says where
+ * and how deep they overlap, for a block of pairs at a time. Called from parallel loops. */
 #ifndef SHAPE_H
 #define SHAPE_H
 
@@ -15,8 +15,8 @@ struct wall;
 struct candidates {
     int n;
     int i[TOUCH], j[TOUCH];
-    int slot[TOUCH];              /* of the pair list; history and record follow it */
-    const struct wall *wall[TOUCH]; /* NULL: grain against grain */
+    int slot[TOUCH];                        /* of the pair list; history and record follow it */
+    const struct wall *wall[TOUCH];         /* NULL: grain against grain */
     double dx[TOUCH], dy[TOUCH], dz[TOUCH]; /* x_i - x_j by the nearest image; wall: from the
                                                wall's nearest point to x_i */
 };
@@ -34,8 +34,8 @@ extern const struct key shape_keys[]; /* of section "grains" */
  * density. */
 void shape_body(struct grains *g, int i, double diameter, double density);
 
-/* Sets depth, normal, r_eff, r_i, r_j and the levers of each candidate, in the same order. A pair
- * that does not overlap gets a negative depth (its gap). */
+/* Sets depth, normal, r_eff, r_i, r_j and the levers of each candidate, in the same order. A
+ * pair that does not overlap gets a negative depth (its gap). */
 void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
                     struct levers *l);
 

@@ -1,5 +1,5 @@
-/* shapes/sphere.c - a grain is a sphere. The contact point lies in the middle of the overlap. Also
- * the template for other shapes. */
+/* shapes/sphere.c - a grain is a sphere. The contact point lies in the middle of the overlap.
+ * Also the template for other shapes. */
 #include "shape.h"
 
 #define PI 3.14159265358979323846

@@ -1,10 +1,10 @@
 /* base.h - what every file needs: memory, the end of a bad run, clocks, reproducible sums.
  *
- * Memory: all of it through xalloc, which is checked, zeroed and aligned to 64 bytes; who creates
- * frees (xfree). A failed allocation ends the program (exit 4).
+ * Memory: all of it through xalloc, which is checked, zeroed and aligned to 64 bytes; who
+ * creates frees (xfree). A failed allocation ends the program (exit 4).
  *
- * Threads: every sum over many terms goes over blocks of a fixed size, in order, so that its bits
- * do not depend on the number of threads. */
+ * Threads: every sum over many terms goes over blocks of a fixed size, in order, so that its
+ * bits do not depend on the number of threads. */
 #ifndef BASE_H
 #define BASE_H
 
@@ -26,10 +26,10 @@ enum { SUM_BLOCK = 1024 }; /* terms per block of a reproducible sum */
 _Noreturn void die(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 extern void (*die_hook)(int code, const char *message);
 
-void *xalloc(size_t count, size_t size);               /* zeroed; never NULL */
+void *xalloc(size_t count, size_t size);                                /* zeroed; never NULL */
 void *xrealloc(void *old, size_t old_count, size_t count, size_t size); /* new part zeroed */
 void xfree(void *p);
-char *xstrdup(const char *text);                       /* free with xfree */
+char *xstrdup(const char *text); /* free with xfree */
 char *xprintf(const char *format, ...) __attribute__((format(printf, 1, 2))); /* xfree */
 
 double wall_clock(void); /* s, monotonic */

@@ -13,7 +13,8 @@ static void add(struct bed_file *b, int *capacity, vec3 x, double d)
     if (b->n == *capacity) {
         const int more = *capacity ? 2 * *capacity : 1024;
         b->pos = xrealloc(b->pos, (size_t)*capacity, (size_t)more, sizeof *b->pos);
-        b->diameter = xrealloc(b->diameter, (size_t)*capacity, (size_t)more, sizeof *b->diameter);
+        b->diameter =
+            xrealloc(b->diameter, (size_t)*capacity, (size_t)more, sizeof *b->diameter);
         *capacity = more;
     }
     b->pos[b->n] = x;
@@ -33,8 +34,8 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
             continue;
         const int got = sscanf(line, "%lf %lf %lf %lf %c", &x.x, &x.y, &x.z, &d, &rest);
         if (got != 4 || !isfinite(x.x + x.y + x.z + d) || !(d > 0.0))
-            return xprintf("%s:%d: must hold x y z diameter in m, \"%.40s\" does not", path, number,
-                           line);
+            return xprintf("%s:%d: must hold x y z diameter in m, \"%.40s\" does not", path,
+                           number, line);
         add(b, &capacity, x, d);
     }
     return b->n > 0 ? NULL : xprintf("%s: holds no grain", path);
@@ -49,7 +50,8 @@ static char *read_netcdf(struct bed_file *b, const char *path)
     char *why = NULL;
     if (nc_inq_dimid(nc, "grain", &dim_grain) || nc_inq_dimlen(nc, dim_grain, &n) ||
         nc_inq_dimid(nc, "time", &dim_time) || nc_inq_dimlen(nc, dim_time, &times) || n == 0 ||
-        times == 0 || nc_inq_varid(nc, "position", &var) || nc_inq_varid(nc, "radius", &radius)) {
+        times == 0 || nc_inq_varid(nc, "position", &var) ||
+        nc_inq_varid(nc, "radius", &radius)) {
         why = xprintf("%s: holds no grains as a run.nc does", path);
     } else {
         b->n = (int)n;
@@ -88,8 +90,8 @@ char *bed_file_read(struct bed_file *b, const char *path, const char *scene_path
         char magic[4] = {0};
         const size_t got = fread(magic, 1, sizeof magic, file);
         rewind(file);
-        const bool netcdf = got == 4 && (memcmp(magic, "\211HDF", 4) == 0 ||
-                                         memcmp(magic, "CDF", 3) == 0);
+        const bool netcdf =
+            got == 4 && (memcmp(magic, "\211HDF", 4) == 0 || memcmp(magic, "CDF", 3) == 0);
         why = netcdf ? read_netcdf(b, beside) : read_text(b, file, beside);
     }
     if (file)

@@ -1,10 +1,10 @@
 /* contact_loop.c - the contact loop.
  *
- * The list of pairs is cut into fixed runs of grains. A thread takes a run, keeps the pairs that
- * touch, and works them through the laws in blocks of TOUCH contacts, structure of arrays, which
- * the compiler vectorises. The force of a contact goes to a record of its own; then each grain
- * gathers its records in the order of the list. No two threads write to one place, and no sum
- * depends on who computed what: the same bits on any number of threads. */
+ * The list of pairs is cut into fixed runs of grains. A thread takes a run, keeps the pairs
+ * that touch, and works them through the laws in blocks of TOUCH contacts, structure of arrays,
+ * which the compiler vectorises. The force of a contact goes to a record of its own; then each
+ * grain gathers its records in the order of the list. No two threads write to one place, and no
+ * sum depends on who computed what: the same bits on any number of threads. */
 #include "contact_loop.h"
 
 #include <limits.h>
@@ -25,19 +25,20 @@ struct record {
 
 /* What a run of grains reports. */
 struct report {
-    double overlap;          /* of the smaller radius */
-    int worst;               /* slot of the largest overlap */
+    double overlap; /* of the smaller radius */
+    int worst;      /* slot of the largest overlap */
     long touching;
-    double energy;           /* J */
+    double energy; /* J */
     vec3 wall_force[WALLS_MAX];
-    vec3 skeleton_force;     /* N, on frozen grains */
+    vec3 skeleton_force; /* N, on frozen grains */
 };
 
 struct contact_work {
     size_t capacity;
-    struct record *record; /* record 0 is zero; those of a run are packed from 1 + its first slot */
-    int *record_of;        /* per slot; 0: no contact */
-    int *records;          /* n + 1; of the grain as owner: from records[i] on, count[i] of them */
+    struct record
+        *record;    /* record 0 is zero; those of a run are packed from 1 + its first slot */
+    int *record_of; /* per slot; 0: no contact */
+    int *records;   /* n + 1; of the grain as owner: from records[i] on, count[i] of them */
     int *count;
     int runs;
     struct report *report;
@@ -222,8 +223,8 @@ static int work_block(struct sim *s, struct block *b, struct report *r, int next
     return store(s, b, r, next);
 }
 
-/* The slot as the next candidate of the block, kept if its bodies are within reach: it is written
- * in any case and counted if so, without a branch that could be guessed wrong. */
+/* The slot as the next candidate of the block, kept if its bodies are within reach: it is
+ * written in any case and counted if so, without a branch that could be guessed wrong. */
 static void offer_grain(struct sim *s, struct block *b, int slot)
 {
     const struct grains *const g = &s->grains;
@@ -300,10 +301,11 @@ static void die_overlap(const struct sim *s, int slot, double overlap)
     else
         snprintf(other, sizeof other, "grain %d", g->id[j]);
     die(EXIT_UNSTABLE,
-        "grain %d overlaps %s by %.3g of its radius at t = %.9g s, at %.6g %.6g %.6g m, speed %.3g "
+        "grain %d overlaps %s by %.3g of its radius at t = %.9g s, at %.6g %.6g %.6g m, speed "
+        "%.3g "
         "m/s: more than run.overlap_max = %g; take a shorter run.dt or stiffer grains",
-        g->id[i], other, overlap, s->t, g->pos[i].x, g->pos[i].y, g->pos[i].z, v3_norm(g->vel[i]),
-        s->run.overlap_max);
+        g->id[i], other, overlap, s->t, g->pos[i].x, g->pos[i].y, g->pos[i].z,
+        v3_norm(g->vel[i]), s->run.overlap_max);
 }
 
 /* Impulses take half of each step's force at either end, as the kicks do. */

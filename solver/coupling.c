@@ -1,7 +1,7 @@
 /* coupling.c - the exchange between grains and fluid, see coupling.h for the equations.
  *
- * Sums to the grid go in the order of the grains: every thread walks all shares and adds those of
- * its own slab of cells, so the bits do not depend on the number of threads. */
+ * Sums to the grid go in the order of the grains: every thread walks all shares and adds those
+ * of its own slab of cells, so the bits do not depend on the number of threads. */
 #include "coupling.h"
 
 #include <omp.h>
@@ -17,7 +17,8 @@ const struct key coupling_keys[] = {
     {"coupling", "pressure_gradient", KEY_CHOICE, "", "off | on", "on",
      "force -V grad p on the grains (p without its hydrostatic part)"},
     {"coupling", "viscous", KEY_CHOICE, "", "off | on", "on", "force V div tau on the grains"},
-    {"coupling", "buoyancy", KEY_CHOICE, "", "off | on", "on", "force -rho_f V g on the grains"},
+    {"coupling", "buoyancy", KEY_CHOICE, "", "off | on", "on",
+     "force -rho_f V g on the grains"},
     {"coupling", "porosity_min", KEY_REAL, "1", "[0, 1)", "0.05",
      "a smaller fluid fraction in a cell stops the run"},
     {0},
@@ -61,29 +62,33 @@ void coupling_create(struct sim *s)
         const enum place place = (enum place)(PLACE_FACE_X + a);
         c->u_drag[a] = grid_field(&s->grid);
         c->swing[a] = grid_field(&s->grid);
-        fields_add(&s->fields, (struct field){name[a][0], "m s-1", "velocity the drag was taken at",
-                                              place, KIND_REAL, (void **)&c->u_drag[a],
-                                              FIELD_STATE});
-        fields_add(&s->fields, (struct field){name[a][1], "m s-1", "its last wish to change", place,
-                                              KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
+        fields_add(&s->fields,
+                   (struct field){name[a][0], "m s-1", "velocity the drag was taken at", place,
+                                  KIND_REAL, (void **)&c->u_drag[a], FIELD_STATE});
+        fields_add(&s->fields,
+                   (struct field){name[a][1], "m s-1", "its last wish to change", place,
+                                  KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
         c->K[a] = grid_field(&s->grid);
         c->KV[a] = grid_field(&s->grid);
         c->Q[a] = grid_field(&s->grid);
         c->M[a] = grid_field(&s->grid);
     }
-    fields_add(&s->fields, (struct field){"drag", "N", "drag force on the grain", PLACE_GRAIN,
-                                          KIND_VEC3, (void **)&c->drag, FIELD_STATE | FIELD_OUTPUT});
-    fields_add(&s->fields, (struct field){"velocity_old", "m s-1", "velocity a fluid step ago",
-                                          PLACE_GRAIN, KIND_VEC3, (void **)&c->vel_old, FIELD_STATE});
-    fields_add(&s->fields, (struct field){"position_old", "m", "position a fluid step ago",
-                                          PLACE_GRAIN, KIND_VEC3, (void **)&c->pos_load, FIELD_STATE});
+    fields_add(&s->fields,
+               (struct field){"drag", "N", "drag force on the grain", PLACE_GRAIN, KIND_VEC3,
+                              (void **)&c->drag, FIELD_STATE | FIELD_OUTPUT});
+    fields_add(&s->fields,
+               (struct field){"velocity_old", "m s-1", "velocity a fluid step ago", PLACE_GRAIN,
+                              KIND_VEC3, (void **)&c->vel_old, FIELD_STATE});
+    fields_add(&s->fields,
+               (struct field){"position_old", "m", "position a fluid step ago", PLACE_GRAIN,
+                              KIND_VEC3, (void **)&c->pos_load, FIELD_STATE});
 }
 
 void coupling_free(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
-    void *const all[] = {c->n_shares, c->shares, c->kappa, c->v_ref, c->drag,
-                         c->vel_old,  c->pos_load, c->eps, c->slack};
+    void *const all[] = {c->n_shares, c->shares,   c->kappa, c->v_ref, c->drag,
+                         c->vel_old,  c->pos_load, c->eps,   c->slack};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     for (int a = 0; a < 3; a++) {
@@ -122,8 +127,8 @@ static void spread_volume(const struct sim *s, double *out)
     }
 }
 
-/* Means of the two cells beside each face of one direction, ghosts of the others included; beyond
- * the first face a periodic copy, or the first face again. */
+/* Means of the two cells beside each face of one direction, ghosts of the others included;
+ * beyond the first face a periodic copy, or the first face again. */
 static void face_mean(const struct sim *s, const double *cells, int a, double *faces)
 {
     const struct grid *const g = &s->grid;
@@ -133,7 +138,8 @@ static void face_mean(const struct sim *s, const double *cells, int a, double *f
         for (int j = 0; j <= g->n[b] + 1; j++) {
             const int at = j * g->s[b] + k * g->s[d];
             for (int i = 1; i <= g->n[a] + 1; i++)
-                faces[at + i * step] = 0.5 * (cells[at + i * step] + cells[at + (i - 1) * step]);
+                faces[at + i * step] =
+                    0.5 * (cells[at + i * step] + cells[at + (i - 1) * step]);
             faces[at] = faces[at + (s->domain.periodic[a] ? g->n[a] : 1) * step];
         }
 }
@@ -143,11 +149,13 @@ static void die_full(const struct sim *s, int c)
     const struct grid *const g = &s->grid;
     const int k = c / g->sk, j = c % g->sk / g->sj, i = c % g->sj;
     die(EXIT_UNSTABLE,
-        "the fluid fraction of cell %d %d %d (centre %.4g %.4g %.4g m) is %.4g at t = %.9g s, below "
-        "coupling.porosity_min = %g; take larger cells, or an answer of porosity/ that spreads a "
+        "the fluid fraction of cell %d %d %d (centre %.4g %.4g %.4g m) is %.4g at t = %.9g s, "
+        "below "
+        "coupling.porosity_min = %g; take larger cells, or an answer of porosity/ that spreads "
+        "a "
         "grain over cells",
-        i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], s->coupling.eps[c],
-        s->t, s->coupling.eps_min);
+        i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2],
+        s->coupling.eps[c], s->t, s->coupling.eps_min);
 }
 
 /* eps = 1 - volume / cell volume; the total against the grains' */
@@ -279,8 +287,8 @@ static double grain_drag(struct sim *s, int i)
         const int at = w[k].cell;
         const double eps = c->eps[at];
         const vec3 u = v3_scale(1.0 / eps, superficial(s, at));
-        kappa[k] = drag_kappa(eps, v3_norm(v3_sub(u, g->vel[i])), diameter, s->fluid.rho,
-                              s->fluid.mu);
+        kappa[k] =
+            drag_kappa(eps, v3_norm(v3_sub(u, g->vel[i])), diameter, s->fluid.rho, s->fluid.mu);
         for (int a = 0; a < 3; a++)
             theta[a] += w[k].weight * kappa[k] * c->M[a][at] / (eps * eps);
     }
@@ -316,8 +324,8 @@ static void spread_drag(struct sim *s)
                 const int at = w[k].cell;
                 if (at < lo || at >= hi)
                     continue;
-                const double part =
-                    w[k].weight * c->kappa[(size_t)i * c->reach + k] / (c->eps[at] * c->eps[at]);
+                const double part = w[k].weight * c->kappa[(size_t)i * c->reach + k] /
+                                    (c->eps[at] * c->eps[at]);
                 for (int a = 0; a < 3; a++) {
                     c->K[a][at] += part * slack[a];
                     c->KV[a][at] += part * slack[a] * v[a];
@@ -358,7 +366,8 @@ void coupling_drag(struct sim *s)
     c->relaxation = relaxation;
     if (!c->implicit && relaxation > 2.0)
         die(EXIT_UNSTABLE,
-            "explicit drag is unstable at t = %.9g s: fluid.dt is %.3g of a grain's relaxation time "
+            "explicit drag is unstable at t = %.9g s: fluid.dt is %.3g of a grain's relaxation "
+            "time "
             "m/kappa (2 at most); take a shorter fluid.dt or coupling.drag = implicit",
             s->t, relaxation);
     if (c->ways == 1)
@@ -391,7 +400,8 @@ static vec3 grain_load(struct sim *s, int i)
     return v3_axpy(c->drag[i], volume, v3(stress[0], stress[1], stress[2]));
 }
 
-/* What the fluid loses to the grains, from the faces: B u - S and the grains' share of the stress */
+/* What the fluid loses to the grains, from the faces: B u - S and the grains' share of the
+ * stress */
 static vec3 lost_by_fluid(const struct sim *s)
 {
     const struct fluid *const f = &s->fluid;

@@ -22,7 +22,8 @@ const struct key domain_keys[] = {
      "acceleration of gravity"},
     {"side", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s",
      "velocity of a wall in its own plane; the name of the side, \"z+\", names the section"},
-    {"side", "head", KEY_REAL, "m", "(-inf, inf)", "0 m", "total head held at a side of kind head"},
+    {"side", "head", KEY_REAL, "m", "(-inf, inf)", "0 m",
+     "total head held at a side of kind head"},
     {"side", "flux", KEY_REAL, "m s-1", "(-inf, inf)", "0 m/s",
      "superficial velocity into the box at a side of kind flux"},
     {0},
@@ -33,8 +34,8 @@ const char *const side_kind_name[] = {"periodic", "wall", "slip", "inflow",
                                       "outflow",  "head", "flux"};
 
 /* The words of KINDS in their order there. */
-static const enum side_kind kind_of_choice[] = {SIDE_WALL, SIDE_SLIP, SIDE_INFLOW, SIDE_OUTFLOW,
-                                                SIDE_HEAD, SIDE_FLUX, SIDE_PERIODIC};
+static const enum side_kind kind_of_choice[] = {
+    SIDE_WALL, SIDE_SLIP, SIDE_INFLOW, SIDE_OUTFLOW, SIDE_HEAD, SIDE_FLUX, SIDE_PERIODIC};
 
 static void read_sides(struct domain *d, struct scene *s, int axis)
 {
@@ -45,7 +46,8 @@ static void read_sides(struct domain *d, struct scene *s, int axis)
         const char *key = side_name[side];
         if (scene_given(s, "domain", NULL, key)) {
             if (given)
-                scene_error(s, "domain", NULL, key, "contradicts domain.%s: give either one", both);
+                scene_error(s, "domain", NULL, key, "contradicts domain.%s: give either one",
+                            both);
         } else {
             key = both;
         }
@@ -77,18 +79,23 @@ static void read_side_values(struct domain *d, struct scene *s)
         e->velocity = scene_vector(s, "side", names[i], "velocity");
         e->head = scene_real(s, "side", names[i], "head");
         e->flux = scene_real(s, "side", names[i], "flux");
-        const double normal = side < 2 ? e->velocity.x : side < 4 ? e->velocity.y : e->velocity.z;
+        const double normal = side < 2   ? e->velocity.x
+                              : side < 4 ? e->velocity.y
+                                         : e->velocity.z;
         if (normal != 0.0)
             scene_error(s, "side", names[i], "velocity", "must lie in the plane of the side");
         if (v3_norm(e->velocity) > 0.0 && e->kind != SIDE_WALL)
-            scene_error(s, "side", names[i], "velocity", "only a side of kind wall moves, %s is %s",
-                        side_name[side], side_kind_name[e->kind]);
+            scene_error(s, "side", names[i], "velocity",
+                        "only a side of kind wall moves, %s is %s", side_name[side],
+                        side_kind_name[e->kind]);
         if (scene_given(s, "side", names[i], "head") && e->kind != SIDE_HEAD)
-            scene_error(s, "side", names[i], "head", "only a side of kind head takes it, %s is %s",
-                        side_name[side], side_kind_name[e->kind]);
+            scene_error(s, "side", names[i], "head",
+                        "only a side of kind head takes it, %s is %s", side_name[side],
+                        side_kind_name[e->kind]);
         if (scene_given(s, "side", names[i], "flux") && e->kind != SIDE_FLUX)
-            scene_error(s, "side", names[i], "flux", "only a side of kind flux takes it, %s is %s",
-                        side_name[side], side_kind_name[e->kind]);
+            scene_error(s, "side", names[i], "flux",
+                        "only a side of kind flux takes it, %s is %s", side_name[side],
+                        side_kind_name[e->kind]);
     }
 }
 

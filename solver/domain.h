@@ -1,22 +1,23 @@
 /* domain.h - the box: its size, its six sides, gravity.
  *
- * The box spans 0..size in each direction. A direction is periodic (both sides) or has two sides,
- * each with a kind. For the grains every side that is not periodic is a plane wall, whatever
- * the fluid does there (see walls.h). */
+ * The box spans 0..size in each direction. A direction is periodic (both sides) or has two
+ * sides, each with a kind. For the grains every side that is not periodic is a plane wall,
+ * whatever the fluid does there (see walls.h). */
 #ifndef DOMAIN_H
 #define DOMAIN_H
 
 #include <stdbool.h>
 #include "scene.h"
 
-enum side_kind {      /* order of the words in the keys of [domain] */
-    SIDE_PERIODIC,
-    SIDE_WALL,        /* no slip; the wall may move in its own plane ([side z+] velocity) */
-    SIDE_SLIP,        /* no flow through, no shear */
-    SIDE_INFLOW,      /* superficial velocity given ([flow]) */
-    SIDE_OUTFLOW,     /* pressure 0 (its part above the hydrostatic one) */
-    SIDE_HEAD,        /* total head given ([side z-] head); darcy */
-    SIDE_FLUX         /* flux into the box given ([side z-] flux); darcy */
+enum side_kind { /* order of the words in the keys of [domain] */
+                 SIDE_PERIODIC,
+                 SIDE_WALL, /* no slip; the wall may move in its own plane ([side z+] velocity)
+                             */
+                 SIDE_SLIP, /* no flow through, no shear */
+                 SIDE_INFLOW,  /* superficial velocity given ([flow]) */
+                 SIDE_OUTFLOW, /* pressure 0 (its part above the hydrostatic one) */
+                 SIDE_HEAD,    /* total head given ([side z-] head); darcy */
+                 SIDE_FLUX     /* flux into the box given ([side z-] flux); darcy */
 };
 
 enum { X_LO, X_HI, Y_LO, Y_HI, Z_LO, Z_HI }; /* sides; names "x-" "x+" ... */
@@ -29,22 +30,23 @@ struct side {
 };
 
 struct domain {
-    double size[3];     /* m */
-    int cells[3];       /* cells of the fluid grid; 0 0 0 when the scene has none */
+    double size[3]; /* m */
+    int cells[3];   /* cells of the fluid grid; 0 0 0 when the scene has none */
     bool periodic[3];
     double image[3], inv_image[3]; /* m, 1/m: the size and its inverse; 0 where not periodic */
     struct side side[6];
-    vec3 gravity;       /* m/s2 */
+    vec3 gravity; /* m/s2 */
 };
 
 extern const struct key domain_keys[];
-extern const char *const side_name[6];       /* "x-", "x+", ... */
-extern const char *const side_kind_name[];   /* "periodic", "wall", ... */
+extern const char *const side_name[6];     /* "x-", "x+", ... */
+extern const char *const side_kind_name[]; /* "periodic", "wall", ... */
 
 /* Reads [domain] and [side *]; contradictory sides go on the scene's list of errors. */
 void domain_read(struct domain *d, struct scene *s);
 
-/* The vector from b to a, by the nearest image. Every position may be up to half a box outside. */
+/* The vector from b to a, by the nearest image. Every position may be up to half a box outside.
+ */
 static inline vec3 domain_minimum_image(const struct domain *d, vec3 ab)
 {
     ab.x -= d->image[0] * rint(ab.x * d->inv_image[0]);

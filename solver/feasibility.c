@@ -1,9 +1,9 @@
 /* feasibility.c - the limits of a scene before it runs.
  *
- * Contact loop: velocity Verlet is stable for dt < 2/omega; a single contact lasts pi/omega, and a
- * grain with several of them is stiffer by their number, so a quarter of a contact's duration is
- * the limit set here. The duration is that at the highest expected speed: run.speed, or else the
- * fastest start plus a free fall through the box. */
+ * Contact loop: velocity Verlet is stable for dt < 2/omega; a single contact lasts pi/omega,
+ * and a grain with several of them is stiffer by their number, so a quarter of a contact's
+ * duration is the limit set here. The duration is that at the highest expected speed:
+ * run.speed, or else the fastest start plus a free fall through the box. */
 #include "feasibility.h"
 
 #include "../contact/contact.h"
@@ -86,7 +86,8 @@ static void contact_lines(const struct sim *s, struct feasibility *f)
         if (i < 0)
             continue;
         const struct species *const sp = &s->grains.species[k];
-        const double rayleigh = contact_rayleigh(sp->material, s->grains.radius[i], sp->density);
+        const double rayleigh =
+            contact_rayleigh(sp->material, s->grains.radius[i], sp->density);
         const double duration = species_duration(s, i);
         if (isfinite(rayleigh)) {
             snprintf(name, sizeof name, "Rayleigh's step, %.32s", sp->name);
@@ -109,8 +110,8 @@ static void relaxation_lines(const struct sim *s, struct feasibility *f)
         if (i < 0)
             continue;
         const double speed = fmax(s->flow.velocity, s->flow.velocity_end) / 0.4;
-        const double kappa = drag_kappa(0.4, speed, s->grains.species[k].diameter, s->fluid.rho,
-                                        s->fluid.mu);
+        const double kappa =
+            drag_kappa(0.4, speed, s->grains.species[k].diameter, s->fluid.rho, s->fluid.mu);
         if (!(kappa > 0.0))
             continue;
         snprintf(name, sizeof name, "drag relaxation, %.32s", s->grains.species[k].name);
@@ -173,7 +174,8 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
     }
     if (worst >= 0)
         fprintf(out, "nearest limit: %s, at %.3g of it\n", f->line[worst].name, most);
-    fprintf(out, "grains %d, cells %.0f, sub-steps %d per step, steps %.0f, memory about %.3g MiB\n",
+    fprintf(out,
+            "grains %d, cells %.0f, sub-steps %d per step, steps %.0f, memory about %.3g MiB\n",
             s->grains.n, (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2], s->run.substeps,
             ceil(s->run.end / (s->run.dt * s->run.substeps)), memory(s) / 1048576.0);
 }
@@ -186,8 +188,9 @@ void feasibility_enforce(const struct sim *s, struct scene *scene, const struct 
         if (!f->line[i].binding || !(f->line[i].used > f->line[i].limit * (1.0 + 1e-9)))
             continue;
         const bool grains = i < f->n && f->line[i].used == s->run.dt;
-        scene_error(scene, grains ? "run" : "fluid", NULL, "dt",
-                    "%s allows %.4g %s at most, %.4g is used (run.force = on runs it all the same)",
-                    f->line[i].name, f->line[i].limit, f->line[i].unit, f->line[i].used);
+        scene_error(
+            scene, grains ? "run" : "fluid", NULL, "dt",
+            "%s allows %.4g %s at most, %.4g is used (run.force = on runs it all the same)",
+            f->line[i].name, f->line[i].limit, f->line[i].unit, f->line[i].used);
     }
 }

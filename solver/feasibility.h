@@ -13,10 +13,10 @@ enum { FEASIBILITY_LINES = 40 };
 struct feasibility {
     int n;
     struct {
-        char name[64];   /* "Rayleigh's step, beads" */
+        char name[64]; /* "Rayleigh's step, beads" */
         char unit[16];
         double limit, used;
-        bool binding;    /* above 1 means refused; otherwise advice only */
+        bool binding; /* above 1 means refused; otherwise advice only */
         char note[96];
     } line[FEASIBILITY_LINES];
 };

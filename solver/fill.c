@@ -1,9 +1,9 @@
 /* fill.c - placing grains: lattice, random without overlap, unit cells, a point, a file.
  *
  * Random filling is random sequential addition: centres are drawn uniformly and kept if they
- * overlap nothing. It jams at a solid fraction of 0.384 [Zhang13]; up to RANDOM_MOST it is quick.
- * `settle` is a random filling of the lower part of the region at SETTLE_LOOSE, which then falls
- * (settle.c). */
+ * overlap nothing. It jams at a solid fraction of 0.384 [Zhang13]; up to RANDOM_MOST it is
+ * quick. `settle` is a random filling of the lower part of the region at SETTLE_LOOSE, which
+ * then falls (settle.c). */
 #include "fill.h"
 
 #include <gsl/gsl_rng.h>
@@ -11,8 +11,8 @@
 #include "bed_file.h"
 #include "sim.h"
 
-#define PI 3.14159265358979323846
-#define RANDOM_MOST 0.34
+#define PI           3.14159265358979323846
+#define RANDOM_MOST  0.34
 #define SETTLE_LOOSE 0.28
 
 enum { LATTICE, RANDOM, SETTLE, UNIT_CELL, POINT, FROM_FILE };
@@ -61,7 +61,8 @@ static void bed_add(struct bed *b, struct placed p)
         b->next = xrealloc(b->next, (size_t)b->capacity, (size_t)capacity, sizeof *b->next);
         b->capacity = capacity;
     }
-    const int at[3] = {bed_index(b, p.pos.x, 0), bed_index(b, p.pos.y, 1), bed_index(b, p.pos.z, 2)};
+    const int at[3] = {bed_index(b, p.pos.x, 0), bed_index(b, p.pos.y, 1),
+                       bed_index(b, p.pos.z, 2)};
     const int c = bed_cell(b, at);
     b->next[b->n] = b->first[c];
     b->first[c] = b->n;
@@ -94,10 +95,12 @@ static double bed_overlap(const struct bed *b, vec3 x, double diameter)
         n[a] = bed_around(b, bed_index(b, at[a], a), a, near[a]);
     double worst = 0.0;
     for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
-        const int k[3] = {near[0][i % n[0]], near[1][i / n[0] % n[1]], near[2][i / (n[0] * n[1])]};
+        const int k[3] = {near[0][i % n[0]], near[1][i / n[0] % n[1]],
+                          near[2][i / (n[0] * n[1])]};
         for (int m = b->first[bed_cell(b, k)]; m >= 0; m = b->next[m]) {
             const double apart = 0.5 * (diameter + b->grain[m].diameter);
-            const double r = v3_norm(domain_minimum_image(b->domain, v3_sub(x, b->grain[m].pos)));
+            const double r =
+                v3_norm(domain_minimum_image(b->domain, v3_sub(x, b->grain[m].pos)));
             worst = fmax(worst, (apart - r) / fmin(diameter, b->grain[m].diameter));
         }
     }
@@ -106,8 +109,8 @@ static double bed_overlap(const struct bed *b, vec3 x, double diameter)
 
 /* The part of the box in which a species is placed, for the centres. */
 struct region {
-    double from[3], to[3];     /* m, as asked */
-    double lo[3], hi[3];       /* m, for centres: a radius inside along walls of the box */
+    double from[3], to[3]; /* m, as asked */
+    double lo[3], hi[3];   /* m, for centres: a radius inside along walls of the box */
 };
 
 static struct region region_read(struct sim *s, struct scene *scene, const char *name, double d)
@@ -123,7 +126,10 @@ static struct region region_read(struct sim *s, struct scene *scene, const char 
         r.from[a] = lower ? f[a] : 0.0;
         r.to[a] = upper ? t[a] : size;
         if (r.from[a] < 0.0 || r.to[a] > size * (1.0 + 1e-12) || !(r.from[a] < r.to[a]))
-            scene_error(scene, "grains", name, upper ? "to" : lower ? "from" : NULL,
+            scene_error(scene, "grains", name,
+                        upper   ? "to"
+                        : lower ? "from"
+                                : NULL,
                         "the region must lie inside the box, from below to");
         const bool open = s->domain.periodic[a];
         r.lo[a] = open && !lower ? r.from[a] : r.from[a] + radius;
@@ -141,8 +147,8 @@ static double region_volume(const struct region *r)
 }
 
 /* True, or an error on the list, if `count` spheres are at most `most` of the region. */
-static bool fits(struct scene *scene, const char *name, const struct region *r, int count, double d,
-                 double most, const char *why)
+static bool fits(struct scene *scene, const char *name, const struct region *r, int count,
+                 double d, double most, const char *why)
 {
     const double solid = count * PI / 6.0 * d * d * d / region_volume(r);
     if (solid <= most)
@@ -163,19 +169,21 @@ static void fill_lattice(struct bed *b, struct scene *scene, const char *name, i
     for (int a = 0; a < 3; a++) {
         n[a] = (int)floor((r->hi[a] - r->lo[a]) / spacing * (1.0 + 1e-12)) + 1;
         if (b->domain->periodic[a] && n[a] > 1 && /* the last must not meet the first's image */
-            r->lo[a] + n[a] * spacing > r->hi[a] + d * 1e-9 && r->hi[a] - r->lo[a] > 0.999 *
-                b->domain->size[a])
+            r->lo[a] + n[a] * spacing > r->hi[a] + d * 1e-9 &&
+            r->hi[a] - r->lo[a] > 0.999 * b->domain->size[a])
             n[a] = (int)floor((r->hi[a] - r->lo[a]) / spacing * (1.0 + 1e-12));
         n[a] = n[a] < 1 ? 1 : n[a];
     }
     if ((double)n[0] * n[1] * n[2] < count) {
-        scene_error(scene, "grains", name, "count", "a lattice of %g m has room for %.0f grains",
-                    spacing, (double)n[0] * n[1] * n[2]);
+        scene_error(scene, "grains", name, "count",
+                    "a lattice of %g m has room for %.0f grains", spacing,
+                    (double)n[0] * n[1] * n[2]);
         return;
     }
     for (int i = 0; i < count; i++) {
-        const vec3 x = v3(r->lo[0] + spacing * (i % n[0]), r->lo[1] + spacing * (i / n[0] % n[1]),
-                          r->lo[2] + spacing * (i / (n[0] * n[1])));
+        const vec3 x =
+            v3(r->lo[0] + spacing * (i % n[0]), r->lo[1] + spacing * (i / n[0] % n[1]),
+               r->lo[2] + spacing * (i / (n[0] * n[1])));
         bed_add(b, (struct placed){x, d, species});
     }
 }
@@ -227,8 +235,9 @@ static void fill_unit_cell(struct bed *b, struct scene *scene, const char *name,
         n[a] = (int)floor(cells + 1e-6);
         if (n[a] < 1 || (b->domain->periodic[a] && fabs(cells - n[a]) > 1e-6))
             scene_error(scene, "grains", name, "spacing",
-                        "the region holds %.6g unit cells of %g m in %c; it must hold %s", cells,
-                        edge, 'x' + a, n[a] < 1 ? "one at least" : "a whole number of them");
+                        "the region holds %.6g unit cells of %g m in %c; it must hold %s",
+                        cells, edge, 'x' + a,
+                        n[a] < 1 ? "one at least" : "a whole number of them");
     }
     if (scene_errors(scene) > 0)
         return;
@@ -272,8 +281,10 @@ static void fill_from_file(struct bed *b, struct scene *scene, const char *name,
         const double at[3] = {x.x, x.y, x.z};
         for (int a = 0; a < 3; a++)
             if (at[a] < 0.0 || at[a] > b->domain->size[a]) {
-                scene_error(scene, "grains", name, "file", "grain %d at %g %g %g m is outside "
-                            "the box", i + 1, x.x, x.y, x.z);
+                scene_error(scene, "grains", name, "file",
+                            "grain %d at %g %g %g m is outside "
+                            "the box",
+                            i + 1, x.x, x.y, x.z);
                 i = bed.n - 1;
                 break;
             }
@@ -303,7 +314,8 @@ static void fill_species(struct sim *s, struct scene *scene, const char *name, i
         if (how == SETTLE) { /* the lower part only: less far to fall */
             const double solid = count * PI / 6.0 * d * d * d / region_volume(&r);
             const double part = fmin(1.0, solid / SETTLE_LOOSE);
-            r.hi[2] = fmin(r.hi[2], fmax(r.from[2] + part * (r.to[2] - r.from[2]), r.lo[2] + d));
+            r.hi[2] =
+                fmin(r.hi[2], fmax(r.from[2] + part * (r.to[2] - r.from[2]), r.lo[2] + d));
         }
         fill_random(b, scene, name, species, &r, count, d, rng);
         break;

@@ -12,8 +12,8 @@ struct placed {
     int species;
 };
 
-/* Places the grains of every species; returns how many, in an array to be freed with xfree. What
- * cannot be placed (no room, no file, overlap) goes on the scene's list of errors. */
+/* Places the grains of every species; returns how many, in an array to be freed with xfree.
+ * What cannot be placed (no room, no file, overlap) goes on the scene's list of errors. */
 int fill(struct sim *s, struct scene *scene, struct placed **out);
 
 /* Whether a species asks for settling (fill = settle). */

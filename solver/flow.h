@@ -1,19 +1,19 @@
 /* flow.h - what drives the fluid: [flow].
  *
  * The superficial velocity through the inflow sides is a staircase from `velocity` to
- * `velocity_end` in `steps` levels, each held for `hold`; or constant. A periodic scene is driven
- * by a pressure gradient. */
+ * `velocity_end` in `steps` levels, each held for `hold`; or constant. A periodic scene is
+ * driven by a pressure gradient. */
 #ifndef FLOW_H
 #define FLOW_H
 
 #include "scene.h"
 
 struct flow {
-    double start;      /* s, when the fluid begins to flow */
+    double start;                  /* s, when the fluid begins to flow */
     double velocity, velocity_end; /* m/s, superficial, into the box */
     int steps;
-    double hold;       /* s */
-    vec3 gradient;     /* Pa/m, mean -grad p that drives a periodic direction */
+    double hold;   /* s */
+    vec3 gradient; /* Pa/m, mean -grad p that drives a periodic direction */
 };
 
 extern const struct key flow_keys[];

@@ -62,8 +62,9 @@ bool fluid_state_create(struct sim *s, struct scene *scene)
     f->mu = scene_real(scene, "fluid", NULL, "viscosity");
     for (int a = 0; a < 3; a++)
         if (s->domain.cells[a] < 1) {
-            scene_error(scene, "domain", NULL, "cells", "a scene with a fluid needs three numbers "
-                                                        "of cells, each 1 at least");
+            scene_error(scene, "domain", NULL, "cells",
+                        "a scene with a fluid needs three numbers "
+                        "of cells, each 1 at least");
             break;
         }
     double cells = 1.0;
@@ -243,14 +244,16 @@ static _Noreturn void die_velocity(const struct sim *s, int a, int c, double cou
     const double u = s->fluid.u[a][c];
     if (!isfinite(u))
         die(EXIT_UNSTABLE,
-            "the velocity of the fluid is not finite in cell %d %d %d (centre %.4g %.4g %.4g m) at t "
+            "the velocity of the fluid is not finite in cell %d %d %d (centre %.4g %.4g %.4g "
+            "m) at t "
             "= %.9g s; take a shorter fluid.dt",
             i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], s->t);
     die(EXIT_UNSTABLE,
-        "the Courant number is %.3g in cell %d %d %d (centre %.4g %.4g %.4g m, %c velocity %.4g m/s, "
+        "the Courant number is %.3g in cell %d %d %d (centre %.4g %.4g %.4g m, %c velocity "
+        "%.4g m/s, "
         "fluid fraction %.3g) at t = %.9g s: more than %g; take fluid.dt below %.3g s",
-        courant, i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], 'x' + a, u,
-        s->fluid.eps[c], s->t, COURANT_MOST, COURANT_MOST * s->fluid.dt / courant);
+        courant, i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2],
+        'x' + a, u, s->fluid.eps[c], s->t, COURANT_MOST, COURANT_MOST * s->fluid.dt / courant);
 }
 
 void fluid_guard(struct sim *s, bool limited)

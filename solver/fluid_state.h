@@ -5,14 +5,14 @@
 #include "pressure.h"
 #include "sim.h"
 
-/* Reads domain.cells, density, viscosity and dt of [fluid], makes the grid, allocates and registers
- * the fields of struct fluid, and the coupling. dt = auto takes half of the limits at the largest
- * velocity of [flow]. False if the scene has errors: nothing is allocated then. */
+/* Reads domain.cells, density, viscosity and dt of [fluid], makes the grid, allocates and
+ * registers the fields of struct fluid, and the coupling. dt = auto takes half of the limits at
+ * the largest velocity of [flow]. False if the scene has errors: nothing is allocated then. */
 bool fluid_state_create(struct sim *s, struct scene *scene);
 void fluid_state_free(struct sim *s);
 
-/* Largest sum of u dt/h over the directions: Adams-Bashforth 2 with upwind or van Leer's slopes was
- * seen to hold to 0.50, to blow up at 0.52. */
+/* Largest sum of u dt/h over the directions: Adams-Bashforth 2 with upwind or van Leer's slopes
+ * was seen to hold to 0.50, to blow up at 0.52. */
 #define COURANT_MOST 0.5
 
 double fluid_courant_limit(const struct sim *s); /* s, at the largest velocity of [flow] */
@@ -21,7 +21,8 @@ double fluid_viscous_limit(const struct sim *s); /* s, 1/(4 nu sum 1/h^2) */
 /* m/s; the largest interstitial velocity to expect: that of [flow] at a porosity of 0.4. */
 double fluid_expected_velocity(const struct sim *s);
 
-/* Last face to be looped over in direction b, for faces of direction a: n, or n + 1 where b == a. */
+/* Last face to be looped over in direction b, for faces of direction a: n, or n + 1 where b ==
+ * a. */
 static inline int face_last(const struct grid *g, int a, int b)
 {
     return g->n[b] + (a == b);
@@ -40,9 +41,8 @@ double fluid_boundary_pressure(const struct sim *s, int side);
 /* Superficial divergence plus d(eps)/dt of cell c, 1/s. */
 double fluid_divergence(const struct sim *s, int c);
 
-/* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is not
- * finite or, if `limited`, where the Courant number passes
- * COURANT_MOST. */
+/* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is
+ * not finite or, if `limited`, where the Courant number passes COURANT_MOST. */
 void fluid_guard(struct sim *s, bool limited);
 
 #endif

@@ -15,9 +15,12 @@ const struct key grains_keys[] = {
      "how many (unit_cell and file: as many as there are)"},
     {"grains", "fill", KEY_CHOICE, "", FILLS, "lattice", "how the grains are placed"},
     {"grains", "frozen", KEY_CHOICE, "", "no | yes", "no", "a fixed skeleton that never moves"},
-    {"grains", "material", KEY_TEXT, "", "", "", "its material; default: the species' own name"},
-    {"grains", "from", KEY_VECTOR, "m", "box | (-inf, inf)", "box", "lowest corner of its region"},
-    {"grains", "to", KEY_VECTOR, "m", "box | (-inf, inf)", "box", "highest corner of its region"},
+    {"grains", "material", KEY_TEXT, "", "", "",
+     "its material; default: the species' own name"},
+    {"grains", "from", KEY_VECTOR, "m", "box | (-inf, inf)", "box",
+     "lowest corner of its region"},
+    {"grains", "to", KEY_VECTOR, "m", "box | (-inf, inf)", "box",
+     "highest corner of its region"},
     {"grains", "position", KEY_VECTOR, "m", "centre | (-inf, inf)", "centre",
      "centre of the grain for fill = point; centre: that of the region"},
     {"grains", "spacing", KEY_REAL, "m", "auto | (0, inf)", "auto",
@@ -25,7 +28,8 @@ const struct key grains_keys[] = {
     {"grains", "cell", KEY_CHOICE, "", "simple_cubic | bcc | fcc", "simple_cubic",
      "unit cell for fill = unit_cell"},
     {"grains", "file", KEY_TEXT, "", "", "",
-     "for fill = file: a run.nc of silt (its last grains), or text with x y z diameter in m a line"},
+     "for fill = file: a run.nc of silt (its last grains), or text with x y z diameter in m a "
+     "line"},
     {"grains", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s", "at the start"},
     {"grains", "spin", KEY_VECTOR, "rad s-1", "(-inf, inf)", "0 0 0 rad/s", "at the start"},
     {0},
@@ -57,8 +61,8 @@ static void read_species(struct sim *s, struct scene *scene)
     for (int i = 0; i < g->n_species; i++) {
         struct species *const sp = &g->species[i];
         if (strlen(names[i]) >= NAME_LENGTH)
-            scene_error(scene, "grains", names[i], NULL, "the name must be shorter than %d letters",
-                        NAME_LENGTH);
+            scene_error(scene, "grains", names[i], NULL,
+                        "the name must be shorter than %d letters", NAME_LENGTH);
         snprintf(sp->name, NAME_LENGTH, "%.*s", NAME_LENGTH - 1, names[i]);
         sp->diameter = scene_real(scene, "grains", names[i], "diameter");
         sp->density = scene_real(scene, "grains", names[i], "density");
@@ -83,9 +87,12 @@ static void register_fields(struct sim *s)
     struct grains *const g = &s->grains;
     const int state = FIELD_STATE, both = FIELD_STATE | FIELD_OUTPUT;
     const struct field list[] = {
-        {"grain_id", "1", "identity of the grain", PLACE_GRAIN, KIND_INT, (void **)&g->id, state},
-        {"species", "1", "index of the species", PLACE_GRAIN, KIND_INT, (void **)&g->kind, state},
-        {"position", "m", "centre of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->pos, both},
+        {"grain_id", "1", "identity of the grain", PLACE_GRAIN, KIND_INT, (void **)&g->id,
+         state},
+        {"species", "1", "index of the species", PLACE_GRAIN, KIND_INT, (void **)&g->kind,
+         state},
+        {"position", "m", "centre of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->pos,
+         both},
         {"velocity", "m s-1", "velocity of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->vel,
          both},
         {"velocity_full", "m s-1", "predicted velocity for dashpots", PLACE_GRAIN, KIND_VEC3,
@@ -119,7 +126,8 @@ static void allocate(struct grains *g, int n)
     g->kind = xalloc((size_t)n, sizeof *g->kind);
     vec3 **const vectors[] = {&g->pos,   &g->vel,    &g->vel_full, &g->spin,
                               &g->force, &g->torque, &g->load,     &g->load_torque};
-    double **const numbers[] = {&g->radius, &g->mass, &g->inv_mass, &g->inv_inertia, &g->volume};
+    double **const numbers[] = {&g->radius, &g->mass, &g->inv_mass, &g->inv_inertia,
+                                &g->volume};
     for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
         *vectors[i] = xalloc((size_t)n, sizeof(vec3));
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
@@ -175,10 +183,10 @@ void grains_create(struct sim *s, struct scene *scene)
 void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
-    void *const all[] = {g->vel_full, g->id,     g->kind,        g->pos,    g->vel,     g->spin,
-                         g->force,  g->torque,      g->load,   g->load_torque, g->radius,
-                         g->mass,   g->inv_mass,    g->inv_inertia, g->volume, g->species,
-                         g->materials};
+    void *const all[] = {g->vel_full, g->id,       g->kind,     g->pos,         g->vel,
+                         g->spin,     g->force,    g->torque,   g->load,        g->load_torque,
+                         g->radius,   g->mass,     g->inv_mass, g->inv_inertia, g->volume,
+                         g->species,  g->materials};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

@@ -18,31 +18,31 @@ struct material {
 
 struct species {
     char name[NAME_LENGTH];
-    int material;      /* index */
-    double diameter;   /* m, volume-equivalent */
-    double density;    /* kg/m3 */
+    int material;    /* index */
+    double diameter; /* m, volume-equivalent */
+    double density;  /* kg/m3 */
     int count;
-    bool frozen;       /* never moves: a fixed skeleton */
+    bool frozen; /* never moves: a fixed skeleton */
 };
 
 struct grains {
     int n, capacity;
     int n_frozen;
     int *id;
-    int *kind;        /* index of the species */
-    vec3 *pos;        /* m; up to half a skin outside a periodic box between rebuilds */
-    vec3 *vel;        /* m/s; at the half step while forces are computed */
-    vec3 *vel_full;   /* m/s, predicted for the full step, for dashpots */
-    vec3 *spin;       /* rad/s, in the frame of the laboratory */
-    vec3 *force;      /* N, all of it but the weight */
-    vec3 *torque;     /* N m */
-    vec3 *load;       /* N, from the fluid, constant over the sub-steps of a fluid step */
-    vec3 *load_torque; /* N m */
-    double *radius;   /* m, of the bounding sphere (of the grain itself, for a sphere) */
-    double *mass;     /* kg; real, for a frozen grain too */
-    double *inv_mass; /* 1/kg; 0 for a frozen grain */
+    int *kind;           /* index of the species */
+    vec3 *pos;           /* m; up to half a skin outside a periodic box between rebuilds */
+    vec3 *vel;           /* m/s; at the half step while forces are computed */
+    vec3 *vel_full;      /* m/s, predicted for the full step, for dashpots */
+    vec3 *spin;          /* rad/s, in the frame of the laboratory */
+    vec3 *force;         /* N, all of it but the weight */
+    vec3 *torque;        /* N m */
+    vec3 *load;          /* N, from the fluid, constant over the sub-steps of a fluid step */
+    vec3 *load_torque;   /* N m */
+    double *radius;      /* m, of the bounding sphere (of the grain itself, for a sphere) */
+    double *mass;        /* kg; real, for a frozen grain too */
+    double *inv_mass;    /* 1/kg; 0 for a frozen grain */
     double *inv_inertia; /* 1/(kg m2); 0 for a frozen grain */
-    double *volume;   /* m3 */
+    double *volume;      /* m3 */
 
     int n_species, n_materials;
     struct species *species;

@@ -23,7 +23,8 @@ double *grid_field(const struct grid *g)
     return xalloc(g->total, sizeof(double));
 }
 
-/* Copies layer `from` to layer `to` of direction a, ghosts of the directions before it included. */
+/* Copies layer `from` to layer `to` of direction a, ghosts of the directions before it
+ * included. */
 static void copy_layer(const struct grid *g, double *f, int a, int to, int from)
 {
     const int b = (a + 1) % 3, c = (a + 2) % 3;

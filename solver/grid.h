@@ -1,7 +1,7 @@
 /* grid.h - the regular staggered grid of the fluid.
  *
- * Interior cells 1..n in each direction, one ghost layer (0 and n+1). A field is a flat array of
- * `total` doubles; cell (i,j,k) has index c = cell(g,i,j,k), its neighbours c-1, c+1 (x),
+ * Interior cells 1..n in each direction, one ghost layer (0 and n+1). A field is a flat array
+ * of `total` doubles; cell (i,j,k) has index c = cell(g,i,j,k), its neighbours c-1, c+1 (x),
  * c-sj, c+sj (y), c-sk, c+sk (z): u[c] - u[c-1] reads as a stencil. x is contiguous.
  *
  * Staggering: scalars at cell centres; face fields (u, v, w, and any coefficient on faces) at
@@ -15,12 +15,12 @@
 #include "domain.h"
 
 struct grid {
-    int n[3];        /* cells */
-    double h[3];     /* m */
-    double volume;   /* m3 of a cell */
-    int sj, sk;      /* strides of j and k */
-    int s[3];        /* {1, sj, sk} */
-    size_t total;    /* entries of a field, ghosts included */
+    int n[3];      /* cells */
+    double h[3];   /* m */
+    double volume; /* m3 of a cell */
+    int sj, sk;    /* strides of j and k */
+    int s[3];      /* {1, sj, sk} */
+    size_t total;  /* entries of a field, ghosts included */
 };
 
 static inline int cell(const struct grid *g, int i, int j, int k)
@@ -31,8 +31,8 @@ static inline int cell(const struct grid *g, int i, int j, int k)
 void grid_create(struct grid *g, const struct domain *d); /* owns nothing */
 double *grid_field(const struct grid *g);                 /* zeroed; free with xfree */
 
-/* Fills the ghost cells of a cell-centred field: periodic copies, else the nearest interior value
- * (zero gradient). Edges and corners too. */
+/* Fills the ghost cells of a cell-centred field: periodic copies, else the nearest interior
+ * value (zero gradient). Edges and corners too. */
 void grid_ghosts(const struct grid *g, const struct domain *d, double *field);
 
 #endif

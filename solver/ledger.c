@@ -57,7 +57,8 @@ void ledger_start(struct sim *s)
     l->energy_start = l->kinetic + l->potential + l->elastic;
     series_add(&s->series, "kinetic_energy", "J", "kinetic energy of the grains", &l->kinetic);
     series_add(&s->series, "elastic_energy", "J", "energy in the contacts", &l->elastic);
-    series_add(&s->series, "dissipated_energy", "J", "energy lost in the contacts", &l->dissipated);
+    series_add(&s->series, "dissipated_energy", "J", "energy lost in the contacts",
+               &l->dissipated);
 }
 
 static void close_momentum(struct sim *s, double time)
@@ -73,8 +74,8 @@ static void close_momentum(struct sim *s, double time)
     l->impulse_walls = v3_scale(-1.0, wall_impulses(s));
     const vec3 sum = v3_add(l->impulse_weight, v3_add(l->impulse_fluid, l->impulse_walls));
     const vec3 change = v3_sub(l->momentum, l->momentum_start);
-    double size = v3_norm(l->impulse_weight) + v3_norm(l->impulse_fluid) +
-                  v3_norm(l->impulse_walls);
+    double size =
+        v3_norm(l->impulse_weight) + v3_norm(l->impulse_fluid) + v3_norm(l->impulse_walls);
     size += sqrt(2.0 * l->mass * l->kinetic);
     l->momentum_error = size > 0.0 ? v3_norm(v3_sub(change, sum)) / size : 0.0;
 }
@@ -86,9 +87,9 @@ static void close_energy(struct sim *s)
     if (s->fluid.on)
         for (int i = 0; i < g->n; i++)
             if (g->inv_mass[i] != 0.0)
-                l->work_fluid +=
-                    v3_dot(g->load[i], domain_minimum_image(&s->domain, v3_sub(g->pos[i],
-                                                                  s->coupling.pos_load[i])));
+                l->work_fluid += v3_dot(
+                    g->load[i], domain_minimum_image(
+                                    &s->domain, v3_sub(g->pos[i], s->coupling.pos_load[i])));
     const double before = l->dissipated;
     l->dissipated = l->energy_start + l->work_fluid + wall_work(s) -
                     (l->kinetic + l->potential + l->elastic);
@@ -140,8 +141,8 @@ void ledger_report(struct sim *s)
         summary_number(&s->summary, "energy_elastic", l->elastic, "J");
         summary_number(&s->summary, "energy_work_of_fluid", l->work_fluid, "J");
         summary_number(&s->summary, "energy_dissipated", l->dissipated, "J");
-        const double size = fabs(l->dissipated) + fabs(l->work_fluid) + l->kinetic + l->elastic +
-                            fabs(l->potential - l->energy_start);
+        const double size = fabs(l->dissipated) + fabs(l->work_fluid) + l->kinetic +
+                            l->elastic + fabs(l->potential - l->energy_start);
         const double made = size > 0.0 ? -l->dissipated_least / size : 0.0;
         closes = line(s, "ledger_energy_made", made, 1e-3) && closes;
     }

@@ -1,9 +1,10 @@
 /* ledger.h - what must add up: mass, momentum, volume, energy. Closed once per step().
  *
- * Momentum of the grains: change = weight + walls + fluid (contacts cancel). Momentum handed over
- * between fluid and grains: both sides are summed on their own and compared. Volume: grains on
- * the grid against grains. Energy: kinetic + potential + elastic + dissipated = start + work of
- * the fluid (and of moving walls); what the contacts dissipated follows and must not be negative. */
+ * Momentum of the grains: change = weight + walls + fluid (contacts cancel). Momentum handed
+ * over between fluid and grains: both sides are summed on their own and compared. Volume:
+ * grains on the grid against grains. Energy: kinetic + potential + elastic + dissipated = start
+ * + work of the fluid (and of moving walls); what the contacts dissipated follows and must not
+ * be negative. */
 #ifndef LEDGER_H
 #define LEDGER_H
 
@@ -12,19 +13,20 @@
 struct sim;
 
 struct ledger {
-    double mass;               /* kg of grains that move */
-    vec3 momentum, momentum_start; /* kg m/s */
+    double mass;                                       /* kg of grains that move */
+    vec3 momentum, momentum_start;                     /* kg m/s */
     vec3 impulse_weight, impulse_walls, impulse_fluid; /* N s since the start */
-    double momentum_error;     /* |change - impulses| / (sum of |impulses|) */
-    double handover_error;     /* largest |to_grains + from_grains| / |to_grains| */
-    double volume_error;       /* largest |volume on grid / volume - 1| */
+    double momentum_error;              /* |change - impulses| / (sum of |impulses|) */
+    double handover_error;              /* largest |to_grains + from_grains| / |to_grains| */
+    double volume_error;                /* largest |volume on grid / volume - 1| */
     double kinetic, potential, elastic; /* J */
     double energy_start, work_fluid, dissipated; /* J */
-    double dissipated_least;   /* J, most negative drop seen: contacts that made energy */
+    double dissipated_least; /* J, most negative drop seen: contacts that made energy */
 };
 
 void ledger_start(struct sim *s);
 void ledger_close(struct sim *s);
-void ledger_report(struct sim *s); /* to the summary; a ledger that does not close says so loudly */
+void ledger_report(
+    struct sim *s); /* to the summary; a ledger that does not close says so loudly */
 
 #endif

@@ -1,7 +1,8 @@
 /* main.c - silt SCENE [section.key=value ...] [-o DIR] [-j THREADS] [--check]
  *
- * Reads the scene as a whole, refuses it with every reason at once (exit 2), or runs it. The scene
- * must ask for the answers that this binary holds; ./run.sh builds the binary for the scene. */
+ * Reads the scene as a whole, refuses it with every reason at once (exit 2), or runs it. The
+ * scene must ask for the answers that this binary holds; ./run.sh builds the binary for the
+ * scene. */
 #include <omp.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -32,8 +33,10 @@ static void on_signal(int which)
 
 static _Noreturn void usage(const char *why, const char *what)
 {
-    fprintf(stderr, "silt: %s%s\nusage: silt SCENE [section.key=value ...] [-o DIR] [-j THREADS] "
-                    "[--check]\n", why, what);
+    fprintf(stderr,
+            "silt: %s%s\nusage: silt SCENE [section.key=value ...] [-o DIR] [-j THREADS] "
+            "[--check]\n",
+            why, what);
     exit(EXIT_SCENE);
 }
 
@@ -142,7 +145,8 @@ static int advance(struct sim *s)
     }
     progress_end(&progress);
     if (caught)
-        fprintf(stderr, "silt: stopped by a signal at t = %.9g s; outputs are complete up to here\n",
+        fprintf(stderr,
+                "silt: stopped by a signal at t = %.9g s; outputs are complete up to here\n",
                 s->t);
     return caught ? 128 + caught : EXIT_GOOD;
 }
@@ -153,8 +157,11 @@ static int run(struct sim *s, struct scene *scene)
     output_create(s, scene);
     running = s;
     die_hook = last_words;
-    signal(SIGINT, on_signal);
-    signal(SIGTERM, on_signal);
+    /* sigaction, not signal: a second Ctrl-C must not end the run in the middle of an output */
+    struct sigaction stop = {.sa_handler = on_signal};
+    sigemptyset(&stop.sa_mask);
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGTERM, &stop, NULL);
     sim_start(s);
     if (fill_settles(s, scene))
         settle(s);

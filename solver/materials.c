@@ -1,7 +1,8 @@
 /* materials.c - parameters of pairs of materials. */
 #include "materials.h"
 
-static double pair_value(struct scene *s, const char *a, const char *b, const char *key, bool *given)
+static double pair_value(struct scene *s, const char *a, const char *b, const char *key,
+                         bool *given)
 {
     char *const names[2] = {xprintf("%s-%s", a, b), xprintf("%s-%s", b, a)};
     double value = 0.0;

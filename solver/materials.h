@@ -19,9 +19,9 @@ enum mix {
     MIX_SERIES     /* springs in series: a b/(a + b); a/2 for like materials */
 };
 
-/* A value of each pair of materials, out[a * n + b], symmetric: from [pair A-B] or [pair B-A] if
- * given there, else mixed from [material A] and [material B]. The key must be in tables of both
- * sections; in "pair" it allows the word "mixed", which is its standard. */
+/* A value of each pair of materials, out[a * n + b], symmetric: from [pair A-B] or [pair B-A]
+ * if given there, else mixed from [material A] and [material B]. The key must be in tables of
+ * both sections; in "pair" it allows the word "mixed", which is its standard. */
 void materials_pair_values(struct scene *s, const struct materials *m, const char *key,
                            enum mix mix, double *out);
 

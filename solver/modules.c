@@ -44,9 +44,10 @@ void modules_declare(struct scene *s)
     for (int i = 0; i < SLOTS; i++) {
         const char *asked = scene_text(s, "modules", NULL, slots[i].name);
         if (strcmp(asked, slots[i].about->name) != 0)
-            scene_error(s, "modules", NULL, slots[i].name,
-                        "this binary was built with %s; ./run.sh builds what the scene asks for",
-                        slots[i].about->name);
+            scene_error(
+                s, "modules", NULL, slots[i].name,
+                "this binary was built with %s; ./run.sh builds what the scene asks for",
+                slots[i].about->name);
         scene_declare(s, slots[i].keys);
     }
 }

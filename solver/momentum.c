@@ -1,11 +1,11 @@
-/* momentum.c - convection and viscous stress on the staggered grid [HarlowWelch65], second order.
+/* momentum.c - convection and viscous stress on the staggered grid [HarlowWelch65], second
+ * order.
  *
- *   convection  -rho div(eps u u_a): the volume flux through a face of the control volume is the mean
- *               of the two faces beside it; u_a there is the mean (centred), the upwind value, or the
- *               upwind value with half of van Leer's slope [vanLeer74]
- *   stress      tau = mu (grad u + grad u^T - 2/3 div u I), at centres and edges
- * On the face of an open side the flow does not change along the normal: no convection, and of the
- * stress the part across. */
+ *   convection  -rho div(eps u u_a): the volume flux through a face of the control volume is
+ * the mean of the two faces beside it; u_a there is the mean (centred), the upwind value, or
+ * the upwind value with half of van Leer's slope [vanLeer74] stress      tau = mu (grad u +
+ * grad u^T - 2/3 div u I), at centres and edges On the face of an open side the flow does not
+ * change along the normal: no convection, and of the stress the part across. */
 #include "momentum.h"
 
 #include "fluid_state.h"
@@ -39,13 +39,15 @@ static double van_leer(double a, double b)
     return a * b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
 }
 
-/* Slopes of u along direction b, where both neighbours exist; 0 on the rim, wrapped if periodic. */
+/* Slopes of u along direction b, where both neighbours exist; 0 on the rim, wrapped if
+ * periodic. */
 static void slopes(const struct sim *s, const struct momentum *m, const double *u, int a, int b)
 {
     const struct grid *const g = &s->grid;
     const int step = g->s[b];
     const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-    const bool rim = a == b && !s->domain.periodic[b]; /* its last face has no neighbour beyond */
+    const bool rim =
+        a == b && !s->domain.periodic[b]; /* its last face has no neighbour beyond */
 #pragma omp parallel for schedule(static)
     for (int k = 1; k <= last[2]; k++)
         for (int j = 1; j <= last[1]; j++)
@@ -94,8 +96,8 @@ void momentum_convection(const struct sim *s, struct momentum *m, int a, double 
             for (int j = 1; j <= last[1]; j++)
                 for (int i = 1; i <= last[0]; i++) {
                     const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                    if (!face_solved(s, a, n) || (!s->domain.periodic[a] &&
-                                                  (n == 1 || n == g->n[a] + 1)))
+                    if (!face_solved(s, a, n) ||
+                        (!s->domain.periodic[a] && (n == 1 || n == g->n[a] + 1)))
                         continue;
                     /* volume fluxes through the low and high face of the control volume */
                     const int lo_1 = a == b ? c - sb : c - sa, hi_1 = a == b ? c : c + sb - sa;
@@ -137,7 +139,8 @@ void momentum_viscous(const struct sim *s, const struct momentum *m, int a, doub
         for (int j = 1; j <= last[1]; j++)
             for (int i = 1; i <= last[0]; i++) {
                 const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                const bool inside = s->domain.periodic[a] ? n <= g->n[a] : n > 1 && n <= g->n[a];
+                const bool inside =
+                    s->domain.periodic[a] ? n <= g->n[a] : n > 1 && n <= g->n[a];
                 double sum = 0.0;
                 if (inside) {
                     const double hi = 2.0 * ((u[c + sa] - u[c]) / ha - m->div[c] / 3.0);

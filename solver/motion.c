@@ -1,8 +1,9 @@
 /* motion.c - velocity Verlet [Swope82]:
  *   v(t + dt/2) = v(t) + a(t) dt/2,  x(t + dt) = x(t) + v(t + dt/2) dt,
  *   v(t + dt)   = v(t + dt/2) + a(t + dt) dt/2.
- * Springs see the velocity of the half step, which keeps their energy; dashpots see v(t) + a(t) dt,
- * which keeps them second order. Spins likewise (the inertia of every grain here is a number). */
+ * Springs see the velocity of the half step, which keeps their energy; dashpots see v(t) + a(t)
+ * dt, which keeps them second order. Spins likewise (the inertia of every grain here is a
+ * number). */
 #include "motion.h"
 
 #include "sim.h"
@@ -21,7 +22,8 @@ static void die_lost(const struct sim *s)
         if (isfinite(x.x + x.y + x.z))
             continue;
         die(EXIT_UNSTABLE,
-            "the position of grain %d is not finite at t = %.9g s (velocity %g %g %g m/s, force %g "
+            "the position of grain %d is not finite at t = %.9g s (velocity %g %g %g m/s, "
+            "force %g "
             "%g %g N); take a shorter run.dt",
             g->id[i], s->t, g->vel[i].x, g->vel[i].y, g->vel[i].z, g->force[i].x, g->force[i].y,
             g->force[i].z);

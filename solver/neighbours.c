@@ -1,8 +1,8 @@
-/* neighbours.c - the pair list: grains sorted by search cell, pairs found in the 27 cells around,
- * the history of live contacts carried from the old list to the new.
+/* neighbours.c - the pair list: grains sorted by search cell, pairs found in the 27 cells
+ * around, the history of live contacts carried from the old list to the new.
  *
- * The skin adapts to the motion: thick while grains fall, thin in a bed at rest. It follows from
- * the state alone, so it is the same on any number of threads and after a restart. */
+ * The skin adapts to the motion: thick while grains fall, thin in a bed at rest. It follows
+ * from the state alone, so it is the same on any number of threads and after a restart. */
 #include "neighbours.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "sim.h"
 
 #define SKIN_LEAST 0.10 /* of the mean diameter */
-#define SKIN_MOST 0.30
+#define SKIN_MOST  0.30
 #define SKIN_STEPS 25.0 /* steps that a skin should last */
 
 /* The search grid of one build. */
@@ -189,7 +189,8 @@ struct old_list {
 };
 
 /* Copies the history of the live contacts of grain i from the old list. */
-static void carry_history(struct neighbours *nb, const struct old_list *old, const int *order, int i)
+static void carry_history(struct neighbours *nb, const struct old_list *old, const int *order,
+                          int i)
 {
     const int was = order[i];
     for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++) {
@@ -236,8 +237,10 @@ static void make_slots(struct sim *s, const struct search *c, const int *order)
     for (int i = 0; i < n; i++) {
         total += (size_t)nb->begin[i + 1];
         if (total > 2000000000u)
-            die(EXIT_UNSTABLE, "more than 2e9 pairs of grains are near each other at t = %g s: "
-                               "the grains overlap all over", s->t);
+            die(EXIT_UNSTABLE,
+                "more than 2e9 pairs of grains are near each other at t = %g s: "
+                "the grains overlap all over",
+                s->t);
         nb->begin[i + 1] = (int)total;
     }
     nb->n_slots = total;

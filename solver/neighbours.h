@@ -1,9 +1,9 @@
 /* neighbours.h - which grains may touch: a list of pairs with a skin, from a cell grid.
  *
- * A slot of the list is a pair owned by one grain: the one with the smaller id, or the grain of a
- * grain-wall pair. Slots of an owner are consecutive: begin[i]..begin[i+1]-1. The history of a
- * contact lives in its slot and moves with it when the list is rebuilt. The list is rebuilt when
- * a grain has moved half a skin since it was made; grains are then sorted by cell. */
+ * A slot of the list is a pair owned by one grain: the one with the smaller id, or the grain of
+ * a grain-wall pair. Slots of an owner are consecutive: begin[i]..begin[i+1]-1. The history of
+ * a contact lives in its slot and moves with it when the list is rebuilt. The list is rebuilt
+ * when a grain has moved half a skin since it was made; grains are then sorted by cell. */
 #ifndef NEIGHBOURS_H
 #define NEIGHBOURS_H
 
@@ -12,13 +12,13 @@
 struct sim;
 
 struct neighbours {
-    double skin;         /* m */
-    double reach;        /* m, gap up to which laws act */
+    double skin;  /* m */
+    double reach; /* m, gap up to which laws act */
     size_t n_slots, capacity;
-    int *begin;          /* n + 1 */
-    int *owner;          /* per slot */
-    int *other;          /* per slot: grain index, or -1 - wall */
-    int *begin_in;       /* n + 1: slots in which a grain is the other one */
+    int *begin;    /* n + 1 */
+    int *owner;    /* per slot */
+    int *other;    /* per slot: grain index, or -1 - wall */
+    int *begin_in; /* n + 1: slots in which a grain is the other one */
     int *slots_in;
     unsigned char *live; /* per slot: it touched at the last step, its history counts */
     int rows;            /* doubles of history per slot */
@@ -26,7 +26,7 @@ struct neighbours {
     vec3 *pos_built;     /* m, positions when the list was made */
     double moved;        /* m, largest displacement since */
     long builds;
-    long touching;       /* contacts at the last step */
+    long touching; /* contacts at the last step */
 };
 
 void neighbours_create(struct sim *s);

@@ -1,6 +1,7 @@
-/* poisson.c - the direct solve [SwarztrauberSweet73], [Costa18]: FFTW's transforms of the kinds that
- * the sides ask for diagonalise x and y; what is left is a tridiagonal system in z for each mode,
- * swept for all modes of a line at once. Periodic z: the wrap-around by Sherman and Morrison.
+/* poisson.c - the direct solve [SwarztrauberSweet73], [Costa18]: FFTW's transforms of the kinds
+ * that the sides ask for diagonalise x and y; what is left is a tridiagonal system in z for
+ * each mode, swept for all modes of a line at once. Periodic z: the wrap-around by Sherman and
+ * Morrison.
  *
  *   sides                      forward / backward    eigenvalue of mode k       norm
  *   periodic                   R2HC / HC2R           4 sin^2(pi k/n)/h^2        n
@@ -9,8 +10,8 @@
  *   Neumann-Dirichlet          REDFT11               with k + 1/2               2n
  *   Dirichlet-Neumann          RODFT11               with k + 1/2               2n
  *
- * Plans are made without timing (FFTW_ESTIMATE) for one thread; threads take planes. So the bits do
- * not depend on the number of threads. */
+ * Plans are made without timing (FFTW_ESTIMATE) for one thread; threads take planes. So the
+ * bits do not depend on the number of threads. */
 #include "poisson.h"
 
 #include <fftw3.h>
@@ -22,10 +23,10 @@ struct poisson {
     const struct grid *g;
     enum poisson_side side[6];
     fftw_plan forward, backward; /* of one plane */
-    double *work;   /* nz planes of ny x nx */
-    double *pivot;  /* the same size: upper factors of the sweeps */
-    double *wrap;   /* the same size, if z is periodic */
-    double *lambda; /* ny x nx */
+    double *work;                /* nz planes of ny x nx */
+    double *pivot;               /* the same size: upper factors of the sweeps */
+    double *wrap;                /* the same size, if z is periodic */
+    double *lambda;              /* ny x nx */
     double norm;
 };
 
@@ -108,11 +109,11 @@ bool poisson_singular(const struct poisson *p, double shift)
 }
 
 /* Sweeps of the modes [lo, hi): d[k] x[k] + c[k] x[k-1] + c[k+1] x[k+1] = r[k] with
- * c[k] = up[k]/h^2 and d[k] = -c[k] - c[k+1] - flat[k] lambda - shift, sides as they are. A mode
- * without any of these terms (singular) has its last value set to zero. */
+ * c[k] = up[k]/h^2 and d[k] = -c[k] - c[k+1] - flat[k] lambda - shift, sides as they are. A
+ * mode without any of these terms (singular) has its last value set to zero. */
 struct sweep {
-    double c[2];          /* below and above the layer */
-    double side;          /* what the side of the box adds to the diagonal */
+    double c[2]; /* below and above the layer */
+    double side; /* what the side of the box adds to the diagonal */
 };
 
 static struct sweep layer(const struct poisson *p, const double *up, int k)
@@ -131,8 +132,8 @@ static struct sweep layer(const struct poisson *p, const double *up, int k)
     return s;
 }
 
-/* Thomas, in place on r, for layers first..last (the rows outside are zero). `corner` is added to
- * the diagonals of layers 1 and n (for Sherman and Morrison). */
+/* Thomas, in place on r, for layers first..last (the rows outside are zero). `corner` is added
+ * to the diagonals of layers 1 and n (for Sherman and Morrison). */
 static void thomas(const struct poisson *p, const double *flat, const double *up, double shift,
                    int first, int last, const double *corner, double *r, size_t lo, size_t hi)
 {
@@ -166,8 +167,8 @@ static void thomas(const struct poisson *p, const double *flat, const double *up
 }
 
 /* A periodic column: the matrix is a tridiagonal one plus a rank-one part at the corners. */
-static void cyclic(struct poisson *p, const double *flat, const double *up, double shift, double *r,
-                   size_t lo, size_t hi)
+static void cyclic(struct poisson *p, const double *flat, const double *up, double shift,
+                   double *r, size_t lo, size_t hi)
 {
     const size_t plane = (size_t)p->g->n[0] * p->g->n[1];
     const int n = p->g->n[2];
@@ -193,8 +194,8 @@ static void cyclic(struct poisson *p, const double *flat, const double *up, doub
     }
 }
 
-/* The mode that is constant in x and y, where a constant solves the equation: the first value is
- * set to zero in place of the first equation. */
+/* The mode that is constant in x and y, where a constant solves the equation: the first value
+ * is set to zero in place of the first equation. */
 static void singular_mode(struct poisson *p, const double *flat, const double *up, double *r)
 {
     const int n = p->g->n[2];
@@ -235,8 +236,7 @@ static void scatter_planes(const struct poisson *p, double mean, double *out)
         fftw_execute_r2r(p->backward, plane, plane);
         for (int j = 1; j <= ny; j++)
             for (int i = 1; i <= nx; i++)
-                out[cell(g, i, j, k)] =
-                    scale * plane[(i - 1) + (size_t)(j - 1) * nx] - mean;
+                out[cell(g, i, j, k)] = scale * plane[(i - 1) + (size_t)(j - 1) * nx] - mean;
     }
 }
 

@@ -1,8 +1,8 @@
-/* poisson.h - div(c grad phi) - shift phi = r on the cells of the grid, directly, where c depends on
- * the layer (z) only: transforms in x and y, a tridiagonal solve in z.
+/* poisson.h - div(c grad phi) - shift phi = r on the cells of the grid, directly, where c
+ * depends on the layer (z) only: transforms in x and y, a tridiagonal solve in z.
  *
- * Each direction is periodic, or each of its sides is a Neumann side (no flux) or a Dirichlet side
- * (phi = 0 on the face, half a cell away). */
+ * Each direction is periodic, or each of its sides is a Neumann side (no flux) or a Dirichlet
+ * side (phi = 0 on the face, half a cell away). */
 #ifndef POISSON_H
 #define POISSON_H
 

@@ -1,6 +1,6 @@
 /* pressure.c - conjugate gradients [HestenesStiefel52] with a direct solve as preconditioner
- * [ConcusGolub73]. For porosities from 0.35 to 1 it takes about ten iterations to 1e-6; for a flat
- * bed, whose coefficient depends on the height only, a few. */
+ * [ConcusGolub73]. For porosities from 0.35 to 1 it takes about ten iterations to 1e-6; for a
+ * flat bed, whose coefficient depends on the height only, a few. */
 #include "pressure.h"
 
 #include <string.h>
@@ -83,7 +83,8 @@ void pressure_ghosts(const struct pressure *p, double *phi)
     }
 }
 
-/* out = div(c grad phi) - shift phi; Neumann faces pass nothing since their ghost equals the cell */
+/* out = div(c grad phi) - shift phi; Neumann faces pass nothing since their ghost equals the
+ * cell */
 static void apply(const struct pressure *p, double *const c[3], double shift, double *phi,
                   double *out)
 {
@@ -91,7 +92,8 @@ static void apply(const struct pressure *p, double *const c[3], double shift, do
     const double sx = 1.0 / (g->h[0] * g->h[0]), sy = 1.0 / (g->h[1] * g->h[1]);
     const double sz = 1.0 / (g->h[2] * g->h[2]);
     const int sj = g->sj, sk = g->sk;
-    const double *const restrict cx = c[0], *const restrict cy = c[1], *const restrict cz = c[2];
+    const double *const restrict cx = c[0], *const restrict cy = c[1],
+                                 *const restrict cz = c[2];
     pressure_ghosts(p, phi);
 #pragma omp parallel for schedule(static)
     for (int k = 1; k <= g->n[2]; k++)
@@ -149,8 +151,8 @@ static void axpy(const struct grid *g, double a, const double *y, double *x)
         x[c] += a * y[c];
 }
 
-struct solve pressure_solve(struct pressure *p, double *const c[3], double shift, const double *rhs,
-                            double *phi, double tolerance, double floor)
+struct solve pressure_solve(struct pressure *p, double *const c[3], double shift,
+                            const double *rhs, double *phi, double tolerance, double floor)
 {
     const struct grid *const g = p->g;
     struct solve result = {.iterations = 0};

@@ -1,4 +1,5 @@
-/* progress.h - how far, how fast, how long still: one line on a terminal, plain lines to a file. */
+/* progress.h - how far, how fast, how long still: one line on a terminal, plain lines to a
+ * file. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 

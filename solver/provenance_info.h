@@ -11,8 +11,8 @@ struct provenance {
 
 enum { PROVENANCE_LINES = 20 };
 
-/* Fills up to PROVENANCE_LINES lines: revision, compiler, flags, libraries, answers, host, date,
- * threads. Returns how many. */
+/* Fills up to PROVENANCE_LINES lines: revision, compiler, flags, libraries, answers, host,
+ * date, threads. Returns how many. */
 int provenance(struct provenance line[PROVENANCE_LINES]);
 
 #endif

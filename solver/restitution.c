@@ -1,12 +1,12 @@
 /* restitution.c - damping ratio from restitution, for a contact without pull.
  *
- * A damped spring lets go when its force is zero, before the overlap is [SchwagerPoeschel07]. With
- * zeta = sin(theta) that is at omega t = pi - 2 theta, and
- *     ln e = -(pi - 2 theta) tan(theta),        zeta < 1  (e > exp(-2))
- *     ln e = -2 psi coth(psi), zeta = cosh(psi), zeta > 1
- * (derived here from their eq. 7 and 13). The customary zeta = -ln e/sqrt(ln^2 e + pi^2) holds for a
- * contact that pulls at its end; cut at zero force it rebounds with 0.550 where 0.5 is asked.
- * Tsuji's damping of a Hertz contact [Tsuji92] maps onto the same oscillator [AntypovElliott11]. */
+ * A damped spring lets go when its force is zero, before the overlap is [SchwagerPoeschel07].
+ * With zeta = sin(theta) that is at omega t = pi - 2 theta, and ln e = -(pi - 2 theta)
+ * tan(theta),        zeta < 1  (e > exp(-2)) ln e = -2 psi coth(psi), zeta = cosh(psi), zeta >
+ * 1 (derived here from their eq. 7 and 13). The customary zeta = -ln e/sqrt(ln^2 e + pi^2)
+ * holds for a contact that pulls at its end; cut at zero force it rebounds with 0.550 where 0.5
+ * is asked. Tsuji's damping of a Hertz contact [Tsuji92] maps onto the same oscillator
+ * [AntypovElliott11]. */
 #include "restitution.h"
 
 #include <gsl/gsl_errno.h>

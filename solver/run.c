@@ -11,7 +11,8 @@ const struct key run_keys[] = {
      "time step of the grains; auto: run.safety of the shortest limit"},
     {"run", "safety", KEY_REAL, "1", "(0, 1]", "0.2", "part of the limit that dt = auto takes"},
     {"run", "substeps", KEY_INT, "", "[1, 1000000]", "100",
-     "grain steps per record of the ledger in a dry scene (with a fluid: fluid.dt over run.dt)"},
+     "grain steps per record of the ledger in a dry scene (with a fluid: fluid.dt over "
+     "run.dt)"},
     {"run", "settle_time", KEY_REAL, "s", "(0, inf)", "10 s",
      "longest settling for fill = settle; a bed that moves still is refused"},
     {"run", "settle_energy", KEY_REAL, "1", "(0, 1)", "1e-5",
@@ -20,7 +21,8 @@ const struct key run_keys[] = {
      "overlap, as part of the smaller radius, that stops the run"},
     {"run", "speed", KEY_REAL, "m s-1", "auto | (0, inf)", "auto",
      "highest expected speed of a grain, for time-step limits; auto: start plus free fall"},
-    {"run", "force", KEY_CHOICE, "", "off | on", "off", "run in spite of broken time-step limits"},
+    {"run", "force", KEY_CHOICE, "", "off | on", "off",
+     "run in spite of broken time-step limits"},
     {"run", "seed", KEY_INT, "", "[0, 2147483647]", "1", "seed of every random number"},
     {"output", "every", KEY_REAL, "s", "ends | (0, inf)", "ends",
      "time between outputs of grains and fields; ends: first and last only"},
@@ -69,8 +71,8 @@ void run_steps(struct sim *s, struct scene *scene)
     if (s->fluid.exists) {
         const double ratio = s->fluid.dt / r->dt;
         if (ratio > 1e7) {
-            scene_error(scene, "fluid", NULL, "dt", "is more than 1e7 steps of the grains (%g s)",
-                        r->dt);
+            scene_error(scene, "fluid", NULL, "dt",
+                        "is more than 1e7 steps of the grains (%g s)", r->dt);
             return;
         }
         r->substeps = ratio > 1.0 ? (int)ceil(ratio - 1e-9) : 1;

@@ -37,7 +37,8 @@ void scene_add_error(struct scene *s, int line, char *text)
             xfree(text);
             return;
         }
-    s->error = xrealloc(s->error, (size_t)s->n_errors, (size_t)s->n_errors + 1, sizeof *s->error);
+    s->error =
+        xrealloc(s->error, (size_t)s->n_errors, (size_t)s->n_errors + 1, sizeof *s->error);
     s->error[s->n_errors] = (struct problem){.line = line, .order = s->n_errors, .text = text};
     s->n_errors++;
 }
@@ -63,7 +64,8 @@ const struct entry *scene_entry(const struct scene *s, const char *section, cons
 static void add_entry(struct scene *s, const char *section, const char *key, const char *value,
                       int line)
 {
-    s->entry = xrealloc(s->entry, (size_t)s->n_entries, (size_t)s->n_entries + 1, sizeof *s->entry);
+    s->entry =
+        xrealloc(s->entry, (size_t)s->n_entries, (size_t)s->n_entries + 1, sizeof *s->entry);
     s->entry[s->n_entries++] = (struct entry){.section = xstrdup(section),
                                               .key = xstrdup(key),
                                               .value = xstrdup(value),
@@ -82,8 +84,8 @@ static int on_key(void *user, const char *section, const char *name, const char 
     }
     const struct entry *const old = scene_entry(s, section, name);
     if (old) {
-        char *const text = xprintf("%s.%s = %s: given twice, first in line %d", section, name, value,
-                                   old->line);
+        char *const text = xprintf("%s.%s = %s: given twice, first in line %d", section, name,
+                                   value, old->line);
         line_error(s, r->line, text);
         xfree(text);
         return 1;
@@ -130,8 +132,8 @@ static void note_section(struct scene *s, const char *header, int line)
             xfree(name);
             return;
         }
-    s->section =
-        xrealloc(s->section, (size_t)s->n_sections, (size_t)s->n_sections + 1, sizeof *s->section);
+    s->section = xrealloc(s->section, (size_t)s->n_sections, (size_t)s->n_sections + 1,
+                          sizeof *s->section);
     s->section[s->n_sections++] = (struct section){.name = name, .line = line};
 }
 
@@ -139,10 +141,31 @@ static bool is_text(const char *line, size_t length)
 {
     for (size_t i = 0; i < length; i++) {
         const unsigned char c = (unsigned char)line[i];
-        if ((c < 32 && c != '\t' && c != '\r' && c != '\n') || c == 127)
+        if ((c < 32 && c != '\t') || c == 127)
             return false;
     }
     return true;
+}
+
+/* Cuts a comment off, which may be longer than what inih holds: a whole line, or ; after a
+ * space. */
+static void cut_comment(char *line)
+{
+    if (line[0] == ';' || line[0] == '#')
+        line[0] = '\0';
+    for (char *c = line; *c; c++)
+        if (*c == ';' && isspace((unsigned char)c[-1])) {
+            *c = '\0';
+            return;
+        }
+}
+
+static void cut_space(char *text)
+{
+    size_t n = strlen(text);
+    while (n > 0 && isspace((unsigned char)text[n - 1]))
+        n--;
+    text[n] = '\0';
 }
 
 /* Looks a line over before inih sees it; an empty line stands for a bad one. */
@@ -150,7 +173,7 @@ static void check_line(struct reading *r, char *line)
 {
     struct scene *const s = r->scene;
     const char *wrong = NULL;
-    if (line[0] == '\0' || line[0] == ';' || line[0] == '#')
+    if (line[0] == '\0')
         return;
     if (strlen(line) > LONGEST) {
         wrong = "the line is longer than 180 letters";
@@ -175,7 +198,8 @@ static void check_line(struct reading *r, char *line)
     line[0] = '\0';
 }
 
-/* fgets for inih: one line, without the space before it (which would continue the line above). */
+/* fgets for inih: one line, without the space before it (which would continue the line above).
+ */
 static char *next_line(char *out, int size, void *stream)
 {
     struct reading *const r = stream;
@@ -183,12 +207,16 @@ static char *next_line(char *out, int size, void *stream)
     size_t room = 0;
     if (r->stop)
         return NULL;
-    const ssize_t length = getline(&line, &room, r->file);
+    ssize_t length = getline(&line, &room, r->file);
     if (length < 0) {
         free(line);
         return NULL;
     }
     r->line++;
+    if (length > 0 && line[length - 1] == '\n')
+        line[--length] = '\0';
+    if (length > 0 && line[length - 1] == '\r')
+        line[--length] = '\0';
     if (!is_text(line, (size_t)length)) {
         line_error(r->scene, r->line, "the file is not text (it holds control bytes)");
         r->stop = true;
@@ -198,7 +226,8 @@ static char *next_line(char *out, int size, void *stream)
     char *from = line + strspn(line, " \t");
     if (r->line == 1 && strncmp(from, "\xEF\xBB\xBF", 3) == 0)
         from += 3; /* the mark that some editors put before UTF-8 */
-    from[strcspn(from, "\r\n")] = '\0';
+    cut_comment(from);
+    cut_space(from);
     check_line(r, from);
     snprintf(out, (size_t)size, "%s\n", from);
     free(line);
@@ -216,8 +245,12 @@ static void read_file(struct scene *s)
     if (ini_parse_stream(next_line, &r, on_key, &r) < 0)
         die(EXIT_SCENE, "%s: cannot be parsed: out of memory", s->path);
     fclose(r.file);
-    if (s->n_errors == 0 && s->n_sections == 0)
+    if (s->n_errors == 0 && s->n_sections == 0) {
         line_error(s, LINE_NONE, "the file holds no [section]");
+        r.stop = true;
+    }
+    if (r.stop) /* not a scene at all: what it lacks is beside the point */
+        scene_refuse(s);
 }
 
 static void read_override(struct scene *s, const char *text)
@@ -235,9 +268,13 @@ static void read_override(struct scene *s, const char *text)
     }
     char *const section = xprintf("%.*s", (int)(dot - text), text);
     char *const key = xprintf("%.*s", (int)(equals - dot - 1), dot + 1);
-    add_entry(s, section, key, equals + 1 + strspn(equals + 1, " "), LINE_OVERRIDE);
+    char *const value = xstrdup(equals + 1 + strspn(equals + 1, " \t"));
+    cut_space(key);
+    cut_space(value);
+    add_entry(s, section, key, value, LINE_OVERRIDE);
     xfree(section);
     xfree(key);
+    xfree(value);
 }
 
 struct scene *scene_load(const char *path, int n_overrides, char **overrides)
@@ -267,7 +304,8 @@ void scene_free(struct scene *s)
         xfree(s->named[i]);
     for (int i = 0; i < s->n_name_lists; i++)
         xfree(s->name_lists[i]);
-    void *const all[] = {s->path, s->entry, s->section, s->error, s->table, s->named, s->name_lists};
+    void *const all[] = {s->path,  s->entry, s->section,   s->error,
+                         s->table, s->named, s->name_lists};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     xfree(s);

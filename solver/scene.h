@@ -38,11 +38,11 @@ enum key_type {
  *  name      "density"
  *  unit      SI unit as udunits2 reads it ("kg m-3"); "1" for a pure number (then a unit is
  *            refused, but % is taken); "" for text, choices and whole numbers
- *  allowed   numbers: an interval, "(0, 1]", "[0, inf)", "(-inf, inf)"; before it, words that may
- *            stand instead of a number: "auto | (0, inf)". Choices: "a | b | c". Text: "".
- *  standard  the value when the key is absent, in the scene's own notation ("1 mm", "auto");
- *            NULL: the key must be given (in every instance of a named section)
- *  meaning   one sentence for `./run.sh keys` */
+ *  allowed   numbers: an interval, "(0, 1]", "[0, inf)", "(-inf, inf)"; before it, words that
+ * may stand instead of a number: "auto | (0, inf)". Choices: "a | b | c". Text: "". standard
+ * the value when the key is absent, in the scene's own notation ("1 mm", "auto"); NULL: the key
+ * must be given (in every instance of a named section) meaning   one sentence for `./run.sh
+ * keys` */
 struct key {
     const char *section, *name;
     enum key_type type;
@@ -66,7 +66,8 @@ void scene_free(struct scene *s);
 
 void scene_declare(struct scene *s, const struct key *table);
 
-/* Values in SI. `name` is the instance of a named section, or NULL. The key must be declared. */
+/* Values in SI. `name` is the instance of a named section, or NULL. The key must be declared.
+ */
 double scene_real(struct scene *s, const char *section, const char *name, const char *key);
 vec3 scene_vector(struct scene *s, const char *section, const char *name, const char *key);
 int scene_int(struct scene *s, const char *section, const char *name, const char *key);

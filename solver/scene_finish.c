@@ -1,4 +1,5 @@
-/* scene_finish.c - the scene as a whole: sections, unknown keys, the list of errors, the tables. */
+/* scene_finish.c - the scene as a whole: sections, unknown keys, the list of errors, the
+ * tables. */
 #include "scene_state.h"
 
 #include <stdlib.h>
@@ -87,7 +88,8 @@ static void check_section(struct scene *s, const char *section, int line)
     else if (is_named(s, section) && !strchr(section, ' '))
         text = xprintf("%s[%s]: needs a name, as in [%s NAME]", where, section, section);
     else if (!is_named(s, section) && strchr(section, ' '))
-        text = xprintf("%s[%s]: takes no name, or nothing in this scene uses it", where, section);
+        text =
+            xprintf("%s[%s]: takes no name, or nothing in this scene uses it", where, section);
     if (text)
         scene_add_error(s, line, text);
     xfree(where);
@@ -118,12 +120,14 @@ static void check_key(struct scene *s, const struct entry *e)
         snprintf(n.best, sizeof n.best, "%s", full);
     }
     char *const where = scene_where(s, e->line);
-    scene_add_error(s, e->line, xprintf("%s%s.%s = %s: no such key%s", where, e->section, e->key,
-                                        e->value, nearest_hint(&n, hint, sizeof hint)));
+    scene_add_error(s, e->line,
+                    xprintf("%s%s.%s = %s: no such key%s", where, e->section, e->key, e->value,
+                            nearest_hint(&n, hint, sizeof hint)));
     xfree(where);
 }
 
-/* With all else sound, a key that nothing has read is a mistake too: the scene does not mean it. */
+/* With all else sound, a key that nothing has read is a mistake too: the scene does not mean
+ * it. */
 static void check_unread(struct scene *s)
 {
     for (int i = 0; i < s->n_entries && s->n_tables > 0; i++) {
@@ -131,8 +135,9 @@ static void check_unread(struct scene *s)
         if (e->read)
             continue;
         char *const where = scene_where(s, e->line);
-        scene_add_error(s, e->line, xprintf("%s%s.%s = %s: nothing in this scene uses it", where,
-                                            e->section, e->key, e->value));
+        scene_add_error(s, e->line,
+                        xprintf("%s%s.%s = %s: nothing in this scene uses it", where,
+                                e->section, e->key, e->value));
         xfree(where);
     }
 }
@@ -150,8 +155,7 @@ int scene_errors(const struct scene *s)
     return s->n_errors;
 }
 
-/* Prints the list and ends the program, unless it is empty. */
-static void report(struct scene *s)
+void scene_refuse(struct scene *s)
 {
     if (s->n_errors == 0)
         return;
@@ -174,7 +178,7 @@ void scene_finish(struct scene *s)
     }
     if (s->n_errors == 0)
         check_unread(s);
-    report(s);
+    scene_refuse(s);
 }
 
 void scene_finish_section(struct scene *s, const char *section)
@@ -182,7 +186,7 @@ void scene_finish_section(struct scene *s, const char *section)
     for (int i = 0; i < s->n_entries; i++)
         if (strcmp(s->entry[i].section, section) == 0)
             check_key(s, &s->entry[i]);
-    report(s);
+    scene_refuse(s);
 }
 
 bool scene_has(struct scene *s, const char *section)
@@ -207,18 +211,18 @@ static void add_name(const char **list, int *n, const char *full, const char *se
 
 int scene_names(struct scene *s, const char *section, const char *const **names)
 {
-    const char **const list =
-        xalloc((size_t)(s->n_sections + s->n_entries) + 1, sizeof *list);
+    const char **const list = xalloc((size_t)(s->n_sections + s->n_entries) + 1, sizeof *list);
     int n = 0;
     for (int i = 0; i < s->n_sections; i++)
         add_name(list, &n, s->section[i].name, section);
     for (int i = 0; i < s->n_entries; i++)
         add_name(list, &n, s->entry[i].section, section);
-    s->name_lists = xrealloc(s->name_lists, (size_t)s->n_name_lists, (size_t)s->n_name_lists + 1,
-                             sizeof *s->name_lists);
+    s->name_lists = xrealloc(s->name_lists, (size_t)s->n_name_lists,
+                             (size_t)s->n_name_lists + 1, sizeof *s->name_lists);
     s->name_lists[s->n_name_lists++] = list;
     if (!is_named(s, section)) {
-        s->named = xrealloc(s->named, (size_t)s->n_named, (size_t)s->n_named + 1, sizeof *s->named);
+        s->named =
+            xrealloc(s->named, (size_t)s->n_named, (size_t)s->n_named + 1, sizeof *s->named);
         s->named[s->n_named++] = xstrdup(section);
     }
     *names = list;
@@ -230,8 +234,8 @@ static void resolve(struct scene *s, const struct key *k, const char *section, c
     const struct entry *const e = scene_entry(s, section, k->name);
     if (!e && !k->standard)
         return;
-    char *const longer = xprintf("%s%s.%s = %s\n", *text, section, k->name,
-                                 e ? e->value : k->standard);
+    char *const longer =
+        xprintf("%s%s.%s = %s\n", *text, section, k->name, e ? e->value : k->standard);
     xfree(*text);
     *text = longer;
 }

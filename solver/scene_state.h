@@ -6,7 +6,7 @@
 
 enum { LINE_OVERRIDE = -1, LINE_NONE = 0 };
 
-struct entry { /* a key as given */
+struct entry {     /* a key as given */
     char *section; /* "grains beads" */
     char *key, *value;
     int line; /* or LINE_OVERRIDE */
@@ -26,9 +26,9 @@ struct scene {
     struct problem {
         int line, order;
         char *text;
-    } *error;
+    } * error;
     const struct key **table;
-    char **named;       /* first words of named sections */
+    char **named; /* first words of named sections */
     const char ***name_lists;
     int n_name_lists;
 };
@@ -38,12 +38,16 @@ char *section_text(const char *section, const char *name);
 
 void scene_add_error(struct scene *s, int line, char *text); /* takes the text */
 
+/* Prints the list and ends the program, unless the list is empty. */
+void scene_refuse(struct scene *s);
+
 /* Line numbers and prefixes: "a.ini:12: ", "command line: ", "a.ini: ". xfree it. */
 char *scene_where(const struct scene *s, int line);
 
 const struct entry *scene_entry(const struct scene *s, const char *section, const char *key);
 
-/* The word nearest to `word` offered so far; NULL-terminated use: nearest_offer for each candidate. */
+/* The word nearest to `word` offered so far; NULL-terminated use: nearest_offer for each
+ * candidate. */
 struct nearest {
     const char *word;
     int distance;

@@ -12,9 +12,9 @@
 /* A key under the eye: where it stands, what it should be. */
 struct asked {
     const struct key *key;
-    char *section;            /* "grains beads" */
+    char *section;             /* "grains beads" */
     const struct entry *entry; /* NULL: absent */
-    const char *text;         /* as given, or the standard; NULL if neither */
+    const char *text;          /* as given, or the standard; NULL if neither */
 };
 
 void scene_declare(struct scene *s, const struct key *table)
@@ -22,7 +22,8 @@ void scene_declare(struct scene *s, const struct key *table)
     for (int i = 0; i < s->n_tables; i++)
         if (s->table[i] == table)
             return;
-    s->table = xrealloc(s->table, (size_t)s->n_tables, (size_t)s->n_tables + 1, sizeof *s->table);
+    s->table =
+        xrealloc(s->table, (size_t)s->n_tables, (size_t)s->n_tables + 1, sizeof *s->table);
     s->table[s->n_tables++] = table;
 }
 
@@ -52,7 +53,8 @@ static struct asked ask(struct scene *s, const char *section, const char *name, 
     a.entry = scene_entry(s, a.section, key);
     if (a.entry)
         for (int i = 0; i < s->n_entries; i++) /* an override reads what it hides too */
-            if (strcmp(s->entry[i].section, a.section) == 0 && strcmp(s->entry[i].key, key) == 0)
+            if (strcmp(s->entry[i].section, a.section) == 0 &&
+                strcmp(s->entry[i].key, key) == 0)
                 s->entry[i].read = true;
     a.text = a.entry ? a.entry->value : a.key->standard;
     return a;
@@ -145,7 +147,8 @@ static void check_range(struct scene *s, const struct asked *a, double value)
     if ((open_lo ? value > lo : value >= lo) && (open_hi ? value < hi : value <= hi))
         return;
     const bool pure = a->key->unit[0] == '\0' || strcmp(a->key->unit, "1") == 0;
-    char *const what = xprintf("must lie in %s%s%s", text, pure ? "" : " ", pure ? "" : a->key->unit);
+    char *const what =
+        xprintf("must lie in %s%s%s", text, pure ? "" : " ", pure ? "" : a->key->unit);
     complain(s, a, what);
     xfree(what);
 }
@@ -161,9 +164,9 @@ static void complain_number(struct scene *s, const struct asked *a, int count)
     const bool whole = a->key->type == KEY_INT || a->key->type == KEY_CELLS;
     const bool pure = whole || strcmp(a->key->unit, "1") == 0;
     const char *const kind = whole ? "whole number" : "number";
-    char *const what =
-        xprintf("must be %s%s %s%s%s%s", words, count == 3 ? "three" : "one", kind,
-                count == 3 ? "s" : "", pure ? "" : " with a unit, as in ", pure ? "" : a->key->unit);
+    char *const what = xprintf("must be %s%s %s%s%s%s", words, count == 3 ? "three" : "one",
+                               kind, count == 3 ? "s" : "", pure ? "" : " with a unit, as in ",
+                               pure ? "" : a->key->unit);
     complain(s, a, what);
     xfree(what);
 }
@@ -178,7 +181,8 @@ static const char *numbers(struct scene *s, const struct asked *a, int count, do
         const bool number = *at && (isdigit((unsigned char)*at) || strchr("+-.", *at));
         errno = 0;
         out[i] = number ? strtod(at, &end) : 0.0;
-        if (!number || end == at || !isfinite(out[i]) ||
+        if (!number || end == at || !isfinite(out[i]) || memchr(at, 'x', (size_t)(end - at)) ||
+            memchr(at, 'X', (size_t)(end - at)) ||
             (*end && !isspace((unsigned char)*end) && i + 1 < count)) {
             complain_number(s, a, count);
             return NULL;
@@ -189,7 +193,8 @@ static const char *numbers(struct scene *s, const struct asked *a, int count, do
 }
 
 /* Converts to SI; false with an error on the list. */
-static bool convert(struct scene *s, const struct asked *a, const char *unit, int count, double *out)
+static bool convert(struct scene *s, const struct asked *a, const char *unit, int count,
+                    double *out)
 {
     double factor = 1.0, offset = 0.0;
     char *what = NULL;
@@ -210,7 +215,8 @@ static bool convert(struct scene *s, const struct asked *a, const char *unit, in
     } else {
         const enum unit_result r = units_convert(unit, a->key->unit, &factor, &offset);
         if (r == UNIT_UNKNOWN)
-            what = xprintf("\"%.40s\" is not a unit; it needs one as in %s", unit, a->key->unit);
+            what =
+                xprintf("\"%.40s\" is not a unit; it needs one as in %s", unit, a->key->unit);
         else if (r == UNIT_DIMENSION)
             what = xprintf("\"%.40s\" has the wrong dimension; it needs that of %s", unit,
                            a->key->unit);
@@ -229,16 +235,16 @@ static void complain_missing(struct scene *s, const struct asked *a)
 {
     const struct key *const k = a->key;
     const bool pure = k->unit[0] == '\0' || strcmp(k->unit, "1") == 0;
-    char *const what = xprintf("must be given (%s)%s%s%s%s", k->meaning,
-                               pure ? "" : ", in units of ", pure ? "" : k->unit,
-                               k->allowed[0] ? ", " : "", k->allowed);
+    char *const what =
+        xprintf("must be given (%s)%s%s%s%s", k->meaning, pure ? "" : ", in units of ",
+                pure ? "" : k->unit, k->allowed[0] ? ", " : "", k->allowed);
     complain(s, a, what);
     xfree(what);
 }
 
 /* The value of a key of `count` numbers; words read as zeros. */
-static void read_numbers(struct scene *s, const char *section, const char *name, const char *key,
-                         int count, double *out)
+static void read_numbers(struct scene *s, const char *section, const char *name,
+                         const char *key, int count, double *out)
 {
     const struct asked a = ask(s, section, name, key);
     int index;
@@ -310,8 +316,8 @@ int scene_choice(struct scene *s, const char *section, const char *name, const c
         char *const words = xstrdup(a.key->allowed);
         for (char *w = strtok(words, " |"); w; w = strtok(NULL, " |"))
             nearest_offer(&n, w);
-        char *const what = xprintf("must be one of %s%s", a.key->allowed,
-                                   nearest_hint(&n, hint, sizeof hint));
+        char *const what =
+            xprintf("must be one of %s%s", a.key->allowed, nearest_hint(&n, hint, sizeof hint));
         complain(s, &a, what);
         xfree(what);
         xfree(words);

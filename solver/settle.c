@@ -42,7 +42,8 @@ void settle(struct sim *s)
         rests = left < s->run.settle_energy && s->neighbours.touching > moving;
         if (!rests && steps >= most)
             die(EXIT_UNSTABLE,
-                "the bed has not settled after run.settle_time = %g s: kinetic energy is %.3g of m g "
+                "the bed has not settled after run.settle_time = %g s: kinetic energy is %.3g "
+                "of m g "
                 "d per grain, run.settle_energy is %g",
                 s->run.settle_time, left, s->run.settle_energy);
         progress_update(&progress, s->t, (double)moving * BETWEEN);

@@ -18,23 +18,23 @@
 struct contact_work; /* scratch of the contact loop */
 
 struct run {
-    double end;        /* s */
-    double dt;         /* s, grains' step */
-    int substeps;      /* grain steps per fluid step (dry: per call of step) */
-    double settle_time; /* s, longest settling before t = 0 */
+    double end;           /* s */
+    double dt;            /* s, grains' step */
+    int substeps;         /* grain steps per fluid step (dry: per call of step) */
+    double settle_time;   /* s, longest settling before t = 0 */
     double settle_energy; /* kinetic energy per m g d of a grain at which a bed has settled */
-    double overlap_max; /* of the radius; more stops the run */
-    double speed;      /* m/s, highest expected; 0: estimated */
-    bool force;        /* run in spite of broken limits */
+    double overlap_max;   /* of the radius; more stops the run */
+    double speed;         /* m/s, highest expected; 0: estimated */
+    bool force;           /* run in spite of broken limits */
     unsigned long seed;
-    char *directory;   /* of the outputs */
+    char *directory;     /* of the outputs */
     double output_every; /* s, fields and grains; INFINITY: first and last only */
     double series_every; /* s */
 };
 
 struct sim {
-    double t;          /* s; settling is before 0 */
-    long step;         /* calls of step() */
+    double t;  /* s; settling is before 0 */
+    long step; /* calls of step() */
     struct run run;
     struct domain domain;
     struct grains grains;
@@ -51,17 +51,17 @@ struct sim {
     struct series series;
     struct tables tables;
     struct summary summary;
-    long substep;      /* grain steps since the start, settling included */
-    double overlap;    /* largest overlap over the smaller radius at the last step */
-    double elastic;    /* J in the springs of the contacts, when last asked for */
-    void *reference;   /* state of the reference answer */
+    long substep;    /* grain steps since the start, settling included */
+    double overlap;  /* largest overlap over the smaller radius at the last step */
+    double elastic;  /* J in the springs of the contacts, when last asked for */
+    void *reference; /* state of the reference answer */
 };
 
 struct feasibility;
 
 struct sim *sim_alloc(void);
-/* Everything from the scene but the outputs; errors go on the scene's list. Fills the feasibility
- * report if the scene is sound. */
+/* Everything from the scene but the outputs; errors go on the scene's list. Fills the
+ * feasibility report if the scene is sound. */
 void sim_create(struct sim *s, struct scene *scene, struct feasibility *f);
 void sim_start(struct sim *s); /* forces of the contacts that exist at the start */
 void sim_free(struct sim *s);

@@ -67,7 +67,8 @@ void table_print(FILE *out, const struct table *t)
     fprintf(out, "%s\n", t->title);
     for (int what = NAME; what <= UNIT; what++) {
         for (int c = 0; c < t->n_columns; c++) {
-            const int name = (int)strlen(t->column[c].name), unit = (int)strlen(t->column[c].unit);
+            const int name = (int)strlen(t->column[c].name),
+                      unit = (int)strlen(t->column[c].unit);
             width[c] = name > unit ? name : unit;
             width[c] = width[c] > 9 ? width[c] : 9;
             const char *const u = strcmp(t->column[c].unit, "1") == 0 ? "" : t->column[c].unit;

@@ -1,7 +1,7 @@
 /* table.h - what there is to write and to restart: fields, time series, tables, summary lines.
  *
- * Modules register what they own; output, restart, sorting and summary walk these lists and know
- * no physics. Names are CF-like, units as udunits2 reads them. */
+ * Modules register what they own; output, restart, sorting and summary walk these lists and
+ * know no physics. Names are CF-like, units as udunits2 reads them. */
 #ifndef TABLE_H
 #define TABLE_H
 
@@ -66,9 +66,9 @@ struct curve {
 };
 
 struct figure {
-    const char *file;  /* "pressure_drop.png"; NULL: no figure */
+    const char *file; /* "pressure_drop.png"; NULL: no figure */
     const char *title;
-    const char *x;     /* column */
+    const char *x; /* column */
     const char *x_label, *y_label;
     bool log_x, log_y;
     int n_curves;
@@ -89,9 +89,10 @@ struct tables {
     struct table **table;
 };
 
-struct table *tables_add(struct tables *t, const struct table *pattern); /* copies; no rows yet */
-void table_row(struct table *t, const double *values);                   /* n_columns values */
-void table_print(FILE *out, const struct table *t);                      /* aligned, with units */
+struct table *tables_add(struct tables *t,
+                         const struct table *pattern); /* copies; no rows yet */
+void table_row(struct table *t, const double *values); /* n_columns values */
+void table_print(FILE *out, const struct table *t);    /* aligned, with units */
 
 /* summary.txt: "key = value unit", one a line, in the order added. */
 struct summary_line {

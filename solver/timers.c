@@ -3,7 +3,7 @@
 
 #include "base.h"
 
-const char *const timer_name[TIMERS] = {"sense",  "fluid",  "load",   "motion", "neighbours",
+const char *const timer_name[TIMERS] = {"sense",    "fluid",  "load",   "motion", "neighbours",
                                         "contacts", "gather", "ledger", "output"};
 
 double timer_add(struct timers *t, enum timer which, double since)

@@ -6,7 +6,9 @@
 
 enum unit_result { UNIT_GOOD, UNIT_UNKNOWN, UNIT_DIMENSION };
 
-/* Factor and offset that take a value in `unit` to one in `si`: si = factor * value + offset. */
-enum unit_result units_convert(const char *unit, const char *si, double *factor, double *offset);
+/* Factor and offset that take a value in `unit` to one in `si`: si = factor * value + offset.
+ */
+enum unit_result units_convert(const char *unit, const char *si, double *factor,
+                               double *offset);
 
 #endif

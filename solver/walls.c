@@ -1,5 +1,5 @@
-/* walls.c - planes that bound the grains. Every side of the box that is not periodic is one, so is
- * every [wall NAME]: a point and a normal towards the grains. */
+/* walls.c - planes that bound the grains. Every side of the box that is not periodic is one, so
+ * is every [wall NAME]: a point and a normal towards the grains. */
 #include "walls.h"
 
 #include <stdio.h>

@@ -13,8 +13,8 @@ struct wall {
     vec3 point, normal; /* m; unit, towards the grains */
     vec3 velocity;      /* m/s, in its own plane (conveyor) */
     int material;
-    vec3 force;         /* N, by the grains on the wall, at the last step */
-    vec3 impulse;       /* N s, its integral over time */
+    vec3 force;   /* N, by the grains on the wall, at the last step */
+    vec3 impulse; /* N s, its integral over time */
 };
 
 struct walls {

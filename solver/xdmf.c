@@ -1,10 +1,10 @@
-/* xdmf.c - run.xmf: grains as points, cell fields on a uniform mesh, one collection in time each. */
+/* xdmf.c - run.xmf: grains as points, cell fields on a uniform mesh, one collection in time
+ * each. */
 #include "xdmf.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include "sim.h"
+#include "output_file.h"
 
 /* Slab t of variable `name` with dimensions (time, dims...). */
 static void item(FILE *o, const char *name, size_t t, size_t n_time, int n, const int *dims)
@@ -16,11 +16,13 @@ static void item(FILE *o, const char *name, size_t t, size_t n_time, int n, cons
         snprintf(size + strlen(size), sizeof size - strlen(size), " %d", dims[i]);
         snprintf(all + strlen(all), sizeof all - strlen(all), " %d", dims[i]);
     }
-    fprintf(o, "<DataItem ItemType=\"HyperSlab\" Dimensions=\"%s\">"
-               "<DataItem Dimensions=\"3 %d\" Format=\"XML\">%zu%s 1%s 1%s</DataItem>"
-               "<DataItem Dimensions=\"%zu%s\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
-               "run.nc:/%s</DataItem></DataItem>\n",
-            size + 1, n + 1, t, slab, ones, size, n_time, all, name);
+    fprintf(
+        o,
+        "<DataItem ItemType=\"HyperSlab\" Dimensions=\"%s\">"
+        "<DataItem Dimensions=\"3 %d\" Format=\"XML\">%zu%s 1%s 1%s</DataItem>"
+        "<DataItem Dimensions=\"%zu%s\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
+        "run.nc:/%s</DataItem></DataItem>\n",
+        size + 1, n + 1, t, slab, ones, size, n_time, all, name);
 }
 
 static void attribute(FILE *o, const struct field *field, const char *centre, size_t t,
@@ -35,13 +37,19 @@ static void attribute(FILE *o, const struct field *field, const char *centre, si
 static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double time)
 {
     const int dims[2] = {s->grains.n, 3};
-    fprintf(o, "<Grid Name=\"grains\"><Time Value=\"%.17g\"/>\n"
-               "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%d\"/>\n"
-               "<Geometry GeometryType=\"XYZ\">\n", time, s->grains.n);
+    fprintf(o,
+            "<Grid Name=\"grains\"><Time Value=\"%.17g\"/>\n"
+            "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%d\" "
+            "NodesPerElement=\"1\"/>\n"
+            "<Geometry GeometryType=\"XYZ\">\n",
+            time, s->grains.n);
     item(o, "position", t, n_time, 2, dims);
-    fprintf(o, "</Geometry>\n<Attribute Name=\"radius\" Center=\"Node\"><DataItem Dimensions=\"%d\" "
-               "NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">run.nc:/radius</DataItem>"
-               "</Attribute>\n", s->grains.n);
+    fprintf(
+        o,
+        "</Geometry>\n<Attribute Name=\"radius\" Center=\"Node\"><DataItem Dimensions=\"%d\" "
+        "NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">run.nc:/radius</DataItem>"
+        "</Attribute>\n",
+        s->grains.n);
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_GRAIN && f->flags & FIELD_OUTPUT && f->kind != KIND_INT &&
@@ -55,11 +63,13 @@ static void cells(FILE *o, const struct sim *s, size_t t, size_t n_time, double 
 {
     const struct grid *const g = &s->grid;
     const int dims[3] = {g->n[2], g->n[1], g->n[0]};
-    fprintf(o, "<Grid Name=\"fluid\"><Time Value=\"%.17g\"/>\n"
-               "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"%d %d %d\"/>\n"
-               "<Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\">0 0 0</DataItem>"
-               "<DataItem Dimensions=\"3\">%.17g %.17g %.17g</DataItem></Geometry>\n",
-            time, g->n[2] + 1, g->n[1] + 1, g->n[0] + 1, g->h[2], g->h[1], g->h[0]);
+    fprintf(
+        o,
+        "<Grid Name=\"fluid\"><Time Value=\"%.17g\"/>\n"
+        "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"%d %d %d\"/>\n"
+        "<Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\">0 0 0</DataItem>"
+        "<DataItem Dimensions=\"3\">%.17g %.17g %.17g</DataItem></Geometry>\n",
+        time, g->n[2] + 1, g->n[1] + 1, g->n[0] + 1, g->h[2], g->h[1], g->h[0]);
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_CELL && f->flags & FIELD_OUTPUT)
@@ -71,9 +81,7 @@ static void cells(FILE *o, const struct sim *s, size_t t, size_t n_time, double 
 void xdmf_write(const struct sim *s, const double *times, size_t n_time)
 {
     char *const path = xprintf("%s/run.xmf", s->run.directory);
-    FILE *const o = fopen(path, "w");
-    if (!o)
-        die(EXIT_WRITE, "%s: cannot be written: %s", path, strerror(errno));
+    FILE *const o = output_text_open(path);
     fprintf(o, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n");
     for (int what = 0; what < 2; what++) {
         if (what == 0 ? s->grains.n == 0 : !s->fluid.exists)
@@ -85,7 +93,6 @@ void xdmf_write(const struct sim *s, const double *times, size_t n_time)
         fprintf(o, "</Grid>\n");
     }
     fprintf(o, "</Domain></Xdmf>\n");
-    if (fclose(o) != 0)
-        die(EXIT_WRITE, "%s: cannot be written: %s", path, strerror(errno));
+    output_text_close(o, path);
     xfree(path);
 }

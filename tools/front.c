@@ -1,7 +1,8 @@
 /* tools/front.c - what run.sh asks before there is a binary for the scene.
- *   front slots SCENE [section.key=value ...]   the answers that the scene asks for, as make variables
- *   front modules | front keys                  every answer / every key, from the answers themselves
- * Run from the project's folder. A scene that names what does not exist is refused here (exit 2). */
+ *   front slots SCENE [section.key=value ...]   the answers that the scene asks for, as make
+ * variables front modules | front keys                  every answer / every key, from the
+ * answers themselves Run from the project's folder. A scene that names what does not exist is
+ * refused here (exit 2). */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <libgen.h>
@@ -81,7 +82,7 @@ static int print_slots(int argc, char **argv)
     struct scene *const scene = scene_load(argv[0], argc - 1, argv + 1);
     for (int i = 0; i < FOLDERS; i++) {
         allowed[i] = answers_allowed(folders[i].path);
-        keys[i] = (struct key){"modules",  folders[i].slot,     KEY_CHOICE,       "",
+        keys[i] = (struct key){"modules",  folders[i].slot,     KEY_CHOICE,     "",
                                allowed[i], folders[i].standard, folders[i].path};
     }
     scene_declare(scene, keys);
@@ -142,7 +143,8 @@ static void print_module(const struct folder *f, const struct about *a, const st
     printf("%s\n", keys->section ? "\n" : "");
 }
 
-static void print_answer_keys(const struct folder *f, const struct about *a, const struct key *keys)
+static void print_answer_keys(const struct folder *f, const struct about *a,
+                              const struct key *keys)
 {
     char *const title = xprintf("\n%s = %s", f->slot, a->name);
     keys_print(stdout, title, keys);

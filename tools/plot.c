@@ -1,112 +1,95 @@
-/* tools/plot.c - the pictures of a run, drawn by gnuplot from DIR/run.nc alone:
- *   one for each table that describes a figure; bed.png, the grains from the side before and after,
- *   with the porosity over height; series.png, the time series.
- * A picture is drawn under another name and renamed when it is complete. */
+/* tools/plot.c - the pictures of a run, drawn from DIR/run.nc alone: one for each table that
+ * describes a figure; bed.png, the grains from the side and the porosity over height;
+ * series.png, the time series. */
 #include <netcdf.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <stdbool.h>
-#include "../solver/base.h"
+#include "../solver/picture.h"
 
-enum { WIDTH = 1200, HEIGHT = 860, MOST_GRAINS = 20000, MOST_SERIES = 6 };
+enum { MOST_CURVES = 8, MOST_SERIES = 6 };
 
-static const char *const colour[] = {"#1f5fa8", "#c8502b", "#3f8f4f", "#8a5aa8",
-                                     "#b8912a", "#3a9aa8", "#777777", "#222222"};
-
-struct run {
-    int nc;
-    const char *directory;
-    char *title; /* "packed_bed, revision abc" */
+struct curve {
+    char *text, *column, *style, *title; /* the latter three lie in text */
+    double *y;
 };
 
-/* One picture in the making. */
-struct picture {
-    FILE *gnuplot;
-    char *path, *part;
+struct figure {
+    const char *table;
+    int n, log[2];
+    size_t rows;
+    double *x;
+    struct curve curve[MOST_CURVES];
 };
 
-static char *text_attribute(const struct run *r, int var, const char *name)
+static double *read_column(const struct run_file *r, const struct figure *f, const char *column)
 {
+    char *const name = xprintf("%s_%s", f->table, column);
     size_t n = 0;
-    if (nc_inq_attlen(r->nc, var, name, &n) != NC_NOERR)
-        return xstrdup("");
-    char *const text = xalloc(n + 1, 1);
-    if (nc_get_att_text(r->nc, var, name, text) != NC_NOERR)
-        text[0] = '\0';
-    return text;
-}
-
-/* All of a variable; NULL if there is none. */
-static double *read_all(const struct run *r, const char *name, size_t *n)
-{
-    int var, dims, dim[NC_MAX_VAR_DIMS];
-    if (nc_inq_varid(r->nc, name, &var) != NC_NOERR || nc_inq_var(r->nc, var, NULL, NULL, &dims, dim,
-                                                                 NULL) != NC_NOERR)
-        return NULL;
-    *n = 1;
-    for (int i = 0; i < dims; i++) {
-        size_t length = 0;
-        nc_inq_dimlen(r->nc, dim[i], &length);
-        *n *= length;
-    }
-    double *const x = xalloc(*n + 1, sizeof *x);
-    if (nc_get_var_double(r->nc, var, x) == NC_NOERR)
-        return x;
-    xfree(x);
-    return NULL;
-}
-
-static struct picture open_picture(const struct run *r, const char *name, int width, int height)
-{
-    struct picture p = {.path = xprintf("%s/%s", r->directory, name)};
-    p.part = xprintf("%s.part", p.path);
-    p.gnuplot = popen("gnuplot", "w");
-    if (!p.gnuplot)
-        die(EXIT_WRITE, "gnuplot cannot be started (package gnuplot-nox)");
-    fprintf(p.gnuplot,
-            "set terminal pngcairo size %d,%d enhanced font 'DejaVu Sans,13' background '#ffffff'\n"
-            "set output '%s'\nset border 3 lc '#444444'\nset tics nomirror out tc '#333333'\n"
-            "set grid lc '#e4e4e4' lw 1\nset key tc '#333333' spacing 1.25\n"
-            "set label 1 at screen 0.995,0.012 right font ',9' tc '#999999' noenhanced '%s'\n",
-            width, height, p.part, r->title);
-    return p;
-}
-
-static void close_picture(struct picture *p)
-{
-    if (pclose(p->gnuplot) != 0 || rename(p->part, p->path) != 0)
-        die(EXIT_WRITE, "%s: gnuplot could not draw it", p->path);
-    printf("%s\n", p->path);
-    xfree(p->path);
-    xfree(p->part);
-}
-
-/* "column|style|title" in place. */
-static void split_curve(char *text, char *part[3])
-{
-    part[0] = text;
-    for (int i = 1; i < 3; i++) {
-        part[i] = strchr(part[i - 1], '|');
-        if (!part[i])
-            die(EXIT_SCENE, "run.nc: a curve of a figure is not column|style|title");
-        *part[i]++ = '\0';
-    }
-}
-
-static double *read_column(const struct run *r, const char *table, const char *column, size_t *n)
-{
-    char *const name = xprintf("%s_%s", table, column);
-    double *const x = read_all(r, name, n);
-    if (!x)
-        die(EXIT_SCENE, "run.nc: the figure of %s needs the column %s, which is not there", table,
-            column);
+    double *const x = run_all(r, name, &n);
+    if (!x || n != f->rows)
+        die(EXIT_SCENE, "%s: the figure of %s needs the column %s, which is not there", r->path,
+            f->table, column);
     xfree(name);
     return x;
 }
 
-/* The data of a curve as block $name; entries that are not finite are left out. */
-static void send_curve(FILE *to, const char *block, const double *x, const double *y, size_t n)
+static void read_curves(const struct run_file *r, int var, struct figure *f)
+{
+    for (int i = 0; i < MOST_CURVES; i++) {
+        struct curve *const c = &f->curve[f->n];
+        char *const key = xprintf("curve_%d", i);
+        c->column = c->text = run_text(r, var, key);
+        xfree(key);
+        if (c->text[0] == '\0') {
+            xfree(c->text);
+            continue;
+        }
+        c->style = strchr(c->text, '|');
+        c->title = c->style ? strchr(c->style + 1, '|') : NULL;
+        if (!c->title)
+            die(EXIT_SCENE, "%s: a curve of figure_%s is not column|style|title", r->path,
+                f->table);
+        *c->style++ = *c->title++ = '\0';
+        c->y = read_column(r, f, c->column);
+        f->n++;
+    }
+}
+
+/* Range of a linear axis: from 0 where the data come near it, else with a margin. What varies
+ * by round-off only counts as constant. */
+static void send_range(FILE *to, const char *axis, double least, double most)
+{
+    const double size = fmax(fabs(least), fabs(most));
+    const double span = most - least > 1e-6 * size ? most - least : size;
+    const bool zero = least >= 0.0 && least <= 0.4 * most;
+    fprintf(to, "set %srange [%.10g:%.10g]\n", axis, zero ? 0.0 : least - 0.04 * span,
+            size > 0.0 ? most + 0.04 * span : 1.0);
+}
+
+static void send_ranges(FILE *to, const struct figure *f)
+{
+    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < f->n; i++)
+        for (size_t k = 0; k < f->rows; k++) {
+            const double at[2] = {f->x[k], f->curve[i].y[k]};
+            for (int a = 0; a < 2 && isfinite(at[0]) && isfinite(at[1]); a++) {
+                least[a] = fmin(least[a], at[a]);
+                most[a] = fmax(most[a], at[a]);
+            }
+        }
+    for (int a = 0; a < 2; a++) {
+        if (f->log[a])
+            fprintf(to, "set logscale %s\nset format %s '10^{%%L}'\n", a ? "y" : "x",
+                    a ? "y" : "x");
+        else if (most[a] >= least[a])
+            send_range(to, a ? "y" : "x", least[a], most[a]);
+    }
+}
+
+/* Entries that are not finite are left out. */
+static void send_block(FILE *to, const char *block, const double *x, const double *y, size_t n)
 {
     fprintf(to, "$%s << END\n", block);
     for (size_t i = 0; i < n; i++)
@@ -115,53 +98,77 @@ static void send_curve(FILE *to, const char *block, const double *x, const doubl
     fprintf(to, "END\n");
 }
 
-static void draw_figure(const struct run *r, int var, const char *table)
+/* Few points lie on the lines, many points under them. Of lines that coincide, the later is
+ * thinner and dashed, so that both are seen. */
+static void send_curves(FILE *to, const struct figure *f)
 {
-    char *const file = text_attribute(r, var, "file"), *const title = text_attribute(r, var, "title");
-    char *const x_name = text_attribute(r, var, "x");
-    char *const label[2] = {text_attribute(r, var, "x_label"), text_attribute(r, var, "y_label")};
-    int log[2] = {0, 0};
-    size_t n = 0;
-    nc_get_att_int(r->nc, var, "log", log);
-    double *const x = read_column(r, table, x_name, &n);
-    struct picture p = open_picture(r, file, WIDTH, HEIGHT);
-    FILE *const to = p.gnuplot;
-    fprintf(to, "set title '%s' font ',15' noenhanced\nset xlabel '%s'\nset ylabel '%s'\n"
-                "set key outside bottom center horizontal noenhanced\n%s%s",
-            title, label[0], label[1], log[0] ? "set logscale x\n" : "",
-            log[1] ? "set logscale y\n" : "");
-    if (!log[1])
-        fprintf(to, "set yrange [*:*]\nset offsets graph 0.02, graph 0.02, graph 0.05, graph 0.02\n");
-    char *plot = xstrdup("plot ");
-    for (int i = 0; i < 8; i++) {
-        char key[32], block[32], *part[3];
-        snprintf(key, sizeof key, "curve_%d", i);
+    static const char *const dash[] = {"1", "(14,6)", "(3,5)", "(14,5,3,5)"};
+    const bool many = f->rows > 60;
+    const char *between = "plot ";
+    for (int i = 0; i < f->n; i++) {
+        char block[16];
         snprintf(block, sizeof block, "c%d", i);
-        char *const text = text_attribute(r, var, key);
-        if (text[0] != '\0') {
-            split_curve(text, part);
-            double *const y = read_column(r, table, part[0], &n);
-            send_curve(to, block, x, y, n);
-            char *const longer =
-                strcmp(part[1], "points") == 0
-                    ? xprintf("%s%s$%s using 1:2 with points pt 7 ps 1.5 lc '%s' title '%s'", plot,
-                              i ? ", " : "", block, colour[i], part[2])
-                    : xprintf("%s%s$%s using 1:2 with lines lw 2.2 dt %d lc '%s' title '%s'",
-                              plot, i ? ", " : "", block, i % 4 + 1, colour[i], part[2]);
-            xfree(plot);
-            plot = longer;
-            xfree(y);
-        }
-        xfree(text);
+        send_block(to, block, f->x, f->curve[i].y, f->rows);
     }
-    fprintf(to, "%s\n", plot);
-    close_picture(&p);
-    void *const all[] = {plot, x, file, title, x_name, label[0], label[1]};
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0, line = 0; i < f->n; i++) {
+            const bool points = strcmp(f->curve[i].style, "points") == 0;
+            char *const title = picture_quoted(f->curve[i].title);
+            if (points == (pass == (many ? 0 : 1))) {
+                fprintf(to, "%s$c%d using 1:2 with ", between, i);
+                if (points)
+                    fprintf(to, "points pt 7 ps %g lc '%s'", many ? 0.8 : 1.5,
+                            picture_colour[i]);
+                else
+                    fprintf(to, "lines lw %g dt %s lc '%s'",
+                            many ? 1.8 : fmax(1.8, 3.0 - 0.5 * line), dash[line % 4],
+                            picture_colour[i]);
+                fprintf(to, " title %s", title);
+                between = ", ";
+            }
+            line += !points;
+            xfree(title);
+        }
+    fprintf(to, "\n");
+}
+
+static void draw_figure(const struct run_file *r, int var, const char *table)
+{
+    struct figure f = {.table = table};
+    char *const file = run_text(r, var, "file"), *const title = run_text(r, var, "title");
+    char *const x = run_text(r, var, "x"), *const x_label = run_text(r, var, "x_label");
+    char *const y_label = run_text(r, var, "y_label"), *const scene = picture_scene(r);
+    char *const rows = xprintf("%s_row", table), *const head = xprintf("%s: %s", scene, title);
+    f.rows = run_length(r, rows);
+    f.x = read_column(r, &f, x);
+    nc_get_att_int(r->nc, var, "log", f.log);
+    read_curves(r, var, &f);
+    if (f.n > 0 && f.rows > 0 && strchr(file, '/') == NULL && file[0] != '\0') {
+        struct picture p = picture_open(r, file, 1200, 900);
+        FILE *const to = p.gnuplot;
+        const double strip = 26.0 + 27.0 * ((f.n + 1) / 2); /* the legend, two a line */
+        picture_text(to, "title", head, "font ',16' noenhanced");
+        picture_text(to, "xlabel", x_label, "");
+        picture_text(to, "ylabel", y_label, "");
+        fprintf(to,
+                "set bmargin at screen %g\nset tmargin at screen 0.93\n"
+                "set lmargin at screen 0.1\nset rmargin at screen 0.965\n"
+                "set key at screen 0.53,%g center top horizontal maxcols 2 width 3\n",
+                (strip + 66.0) / p.height, strip / p.height);
+        send_ranges(to, &f);
+        send_curves(to, &f);
+        picture_close(&p);
+    }
+    for (int i = 0; i < f.n; i++) {
+        xfree(f.curve[i].text);
+        xfree(f.curve[i].y);
+    }
+    void *const all[] = {f.x, file, title, x, x_label, y_label, scene, rows, head};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }
 
-static void draw_figures(const struct run *r)
+static void draw_figures(const struct run_file *r)
 {
     int n = 0;
     nc_inq_nvars(r->nc, &n);
@@ -173,184 +180,14 @@ static void draw_figures(const struct run *r)
     }
 }
 
-/* The grains at one output time. */
-struct grains_at {
-    size_t n;
-    double *pos, *vel; /* n x 3 */
-    const double *radius;
-    int *order;        /* the farthest from the viewer first */
-    double time;
-};
-
-static const double *sort_depth;
-static int by_depth(const void *a, const void *b)
-{
-    const double x = sort_depth[3 * *(const int *)a + 1], y = sort_depth[3 * *(const int *)b + 1];
-    return x < y ? 1 : x > y ? -1 : 0;
-}
-
-static bool read_grains(const struct run *r, size_t t, const double *times, const double *radius,
-                        size_t n, struct grains_at *g)
-{
-    const size_t start[3] = {t, 0, 0}, count[3] = {1, n, 3};
-    int pos, vel;
-    if (nc_inq_varid(r->nc, "position", &pos) || nc_inq_varid(r->nc, "velocity", &vel))
-        return false;
-    *g = (struct grains_at){.n = n, .radius = radius, .time = times[t]};
-    g->pos = xalloc(3 * n, sizeof *g->pos);
-    g->vel = xalloc(3 * n, sizeof *g->vel);
-    g->order = xalloc(n, sizeof *g->order);
-    if (nc_get_vara_double(r->nc, pos, start, count, g->pos) ||
-        nc_get_vara_double(r->nc, vel, start, count, g->vel))
-        return false;
-    for (size_t i = 0; i < n; i++)
-        g->order[i] = (int)i;
-    sort_depth = g->pos;
-    qsort(g->order, n, sizeof *g->order, by_depth);
-    return true;
-}
-
-static void free_grains(struct grains_at *g)
-{
-    xfree(g->pos);
-    xfree(g->vel);
-    xfree(g->order);
-}
-
-static double speed(const struct grains_at *g, int i)
-{
-    const double *const v = &g->vel[3 * i];
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-/* Discs in mm, coloured by speed in mm/s. Of a large bed only the front is drawn: what lies more
- * than a few grains behind it is hidden. */
-static void send_grains(FILE *to, const struct grains_at *g, const char *block, double depth,
-                        const double size[3])
-{
-    double largest = 0.0;
-    for (size_t i = 0; i < g->n; i++)
-        largest = fmax(largest, g->radius[i]);
-    const double limit = g->n > 2000 ? 12.0 * largest : 2.0 * depth;
-    fprintf(to, "$%s << END\n", block);
-    int sent = 0;
-    for (size_t k = 0; k < g->n && sent < MOST_GRAINS; k++) {
-        const int i = g->order[k];
-        const double *const x = &g->pos[3 * i];
-        if (x[1] > limit)
-            continue;
-        const double across = x[0] - size[0] * floor(x[0] / size[0]);
-        fprintf(to, "%.6g %.6g %.6g %.5g\n", 1e3 * across, 1e3 * x[2], 1e3 * g->radius[i],
-                1e3 * speed(g, i));
-        sent++;
-    }
-    fprintf(to, "END\n");
-}
-
-/* Porosity over height at one time: the mean over each layer. */
-static bool send_profile(const struct run *r, FILE *to, size_t t, const char *block)
-{
-    int var, dim[4];
-    size_t n[4], size = 0;
-    if (nc_inq_varid(r->nc, "fluid_fraction", &var) || nc_inq_vardimid(r->nc, var, dim))
-        return false;
-    for (int i = 0; i < 4; i++)
-        nc_inq_dimlen(r->nc, dim[i], &n[i]);
-    const size_t layer = n[2] * n[3], start[4] = {t, 0, 0, 0}, count[4] = {1, n[1], n[2], n[3]};
-    double *const eps = xalloc(n[1] * layer, sizeof *eps), *const z = read_all(r, "z", &size);
-    if (nc_get_vara_double(r->nc, var, start, count, eps))
-        return false;
-    fprintf(to, "$%s << END\n", block);
-    for (size_t k = 0; k < n[1]; k++) {
-        double sum = 0.0;
-        for (size_t i = 0; i < layer; i++)
-            sum += eps[k * layer + i];
-        fprintf(to, "%.8g %.8g\n", sum / (double)layer, 1e3 * z[k]);
-    }
-    fprintf(to, "END\n");
-    xfree(eps);
-    xfree(z);
-    return true;
-}
-
-static void draw_bed(const struct run *r)
-{
-    size_t n = 0, times = 0;
-    double size[3], *const radius = read_all(r, "radius", &n);
-    double *const time = read_all(r, "time", &times);
-    struct grains_at g[2];
-    if (!radius || !time || n == 0 || times == 0 ||
-        nc_get_att_double(r->nc, NC_GLOBAL, "domain_size", size))
-        return;
-    const size_t shown[2] = {0, times - 1};
-    const int panels = times > 1 ? 2 : 1;
-    double fastest = 0.0, top = 0.0;
-    for (int i = 0; i < panels; i++) {
-        if (!read_grains(r, shown[i], time, radius, n, &g[i]))
-            return;
-        for (size_t k = 0; k < n; k++) {
-            fastest = fmax(fastest, 1e3 * speed(&g[i], (int)k));
-            top = fmax(top, g[i].pos[3 * k + 2] + radius[k]);
-        }
-    }
-    if (n > 1) /* the empty part of the box is not shown */
-        size[2] = fmin(size[2], fmax(1.25 * top, 0.2 * size[2]));
-    const double aspect = size[0] / size[2];
-    const int panel = (int)fmin(fmax(620.0 * aspect + 150.0, 300.0), 640.0);
-    const int height = (int)fmin(fmax((panel - 110.0) / aspect + 230.0, 520.0), 860.0);
-    int var;
-    const bool profile = nc_inq_varid(r->nc, "fluid_fraction", &var) == NC_NOERR;
-    struct picture p = open_picture(r, "bed.png", panels * panel + (profile ? 420 : 0) + 110, height);
-    FILE *const to = p.gnuplot;
-    const int columns = panels + profile;
-    fprintf(to, "set multiplot layout 1,%d margins 0.07,%g,0.17,0.92 spacing 0.07,0.05\n"
-                "set palette defined (0 '#6f97c4', 0.5 '#b9d3ea', 1 '#e8a83a')\n"
-                "set cbrange [0:%g]\nset label 2 at screen 0.30,0.062 'speed, mm/s'\n"
-                "set colorbox horizontal user origin screen 0.07,0.055 size screen 0.22,0.016\n"
-                "set xlabel 'x, mm'\n"
-                "set ylabel 'z, mm'\nset yrange [0:%g]\nset xrange [0:%g]\n"
-                "set style fill solid 1.0 border lc '#1b2c4a'\nunset key\nset size ratio -1\n",
-            columns, 0.93, fastest > 0.0 ? fastest : 1.0, 1e3 * size[2], 1e3 * size[0]);
-    for (int i = 0; i < panels; i++) {
-        char block[16];
-        snprintf(block, sizeof block, "g%d", i);
-        send_grains(to, &g[i], block, size[1], size);
-        fprintf(to, "%s\nset title 't = %.4g s' font ',14'\n"
-                    "plot $%s using 1:2:3:4 with circles lc palette lw 0.3\n",
-                i > 0 ? "unset colorbox\nunset ylabel" : "", g[i].time, block);
-        free_grains(&g[i]);
-    }
-    if (profile) {
-        fprintf(to, "set size noratio\nset key at graph 0.98,0.98 right top\nset xrange [0:1.02]\n"
-                    "set xlabel 'fluid fraction (mean of the layer)'\nset ylabel 'z, mm'\nset title 'porosity over height' "
-                    "font ',14'\nunset colorbox\n");
-        for (int i = 0; i < panels; i++) {
-            char block[16];
-            snprintf(block, sizeof block, "p%d", i);
-            send_profile(r, to, shown[i], block);
-        }
-        if (panels == 2)
-            fprintf(to, "plot $p0 using 1:2 with linespoints pt 7 ps 0.6 lw 2 lc '%s' title 't = %.3g "
-                        "s', $p1 using 1:2 with linespoints pt 6 ps 0.8 lw 2 lc '%s' title 't = %.3g "
-                        "s'\n", colour[0], time[0], colour[1], time[times - 1]);
-        else
-            fprintf(to, "plot $p0 using 1:2 with linespoints pt 7 ps 0.6 lw 2 lc '%s' notitle\n",
-                    colour[0]);
-    }
-    fprintf(to, "unset multiplot\n");
-    close_picture(&p);
-    xfree(radius);
-    xfree(time);
-}
-
-/* Names of the variables on the dimension `sample`; returns how many. */
-static int list_series(const struct run *r, int most, int *list)
+/* The first variables on the dimension `sample`; returns how many. */
+static int list_series(const struct run_file *r, int list[MOST_SERIES])
 {
     int n = 0, vars = 0, sample;
     nc_inq_nvars(r->nc, &vars);
     if (nc_inq_dimid(r->nc, "sample", &sample) != NC_NOERR)
         return 0;
-    for (int var = 0; var < vars && n < most; var++) {
+    for (int var = 0; var < vars && n < MOST_SERIES; var++) {
         int dims = 0, dim[NC_MAX_VAR_DIMS];
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_var(r->nc, var, name, NULL, &dims, dim, NULL);
@@ -360,35 +197,61 @@ static int list_series(const struct run *r, int most, int *list)
     return n;
 }
 
-static void draw_series(const struct run *r)
+static void draw_one_series(const struct run_file *r, FILE *to, int var, const double *time,
+                            int i)
+{
+    char name[NC_MAX_NAME + 1] = "";
+    nc_inq_varname(r->nc, var, name);
+    char *const unit = run_text(r, var, "units"), *const title = run_text(r, var, "long_name");
+    size_t n = 0;
+    double *const y = run_all(r, name, &n), least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < n; k++) {
+        least = isfinite(y[k]) ? fmin(least, y[k]) : least;
+        most = isfinite(y[k]) ? fmax(most, y[k]) : most;
+    }
+    if (!(least <= most)) /* nothing finite */
+        least = most = 0.0;
+    send_block(to, "s", time, y, n);
+    char *const head =
+        strcmp(unit, "1") == 0 ? xstrdup(title) : xprintf("%s / %s", title, unit);
+    picture_text(to, "title", head, "font ',12' noenhanced");
+    send_range(to, "y", least, most);
+    fprintf(to, "plot $s using 1:2 with lines lw 1.5 lc '%s'\n",
+            picture_colour[i % PICTURE_COLOURS]);
+    xfree(unit);
+    xfree(title);
+    xfree(head);
+    xfree(y);
+}
+
+static void draw_series(const struct run_file *r)
 {
     int list[MOST_SERIES];
     size_t samples = 0;
-    const int n = list_series(r, MOST_SERIES, list);
-    double *const time = read_all(r, "sample_time", &samples);
-    if (n == 0 || !time || samples < 2)
-        return;
-    const int rows = n > 3 ? 2 : 1, columns = (n + rows - 1) / rows;
-    struct picture p = open_picture(r, "series.png", 460 * columns, 400 * rows + 40);
-    FILE *const to = p.gnuplot;
-    fprintf(to, "set multiplot layout %d,%d\nunset key\nset xlabel 'time, s'\nset format y '%%.3g'\n",
-            rows, columns);
-    for (int i = 0; i < n; i++) {
-        char name[NC_MAX_NAME + 1] = "";
-        nc_inq_varname(r->nc, list[i], name);
-        char *const unit = text_attribute(r, list[i], "units");
-        char *const title = text_attribute(r, list[i], "long_name");
-        double *const y = read_all(r, name, &samples);
-        send_curve(to, "s", time, y, samples);
-        fprintf(to, "set title '%s' font ',12' noenhanced\nset ylabel '%s' noenhanced\n"
-                    "plot $s using 1:2 with lines lw 1.8 lc '%s'\n", title,
-                strcmp(unit, "1") == 0 ? "" : unit, colour[i % 8]);
-        xfree(unit);
-        xfree(title);
-        xfree(y);
+    const int n = list_series(r, list);
+    double *const time = run_all(r, "sample_time", &samples);
+    if (n > 0 && time && samples > 1) {
+        const int rows = n > 3 ? 2 : 1, columns = (n + rows - 1) / rows;
+        const int width = columns > 1 ? 440 * columns : 800, height = 390 * rows + 70;
+        char *const scene = picture_scene(r), *const head = xprintf("%s: time series", scene);
+        struct picture p = picture_open(r, "series.png", width, height);
+        FILE *const to = p.gnuplot;
+        fprintf(to, "set multiplot layout %d,%d margins %g,%g,%g,%g spacing %g,%g\n", rows,
+                columns, 95.0 / width, 1.0 - 25.0 / width, 75.0 / height, 1.0 - 85.0 / height,
+                105.0 / width, 120.0 / height);
+        picture_text(to, "label 2", head, "at screen 0.5,0.97 center font ',15' noenhanced");
+        fprintf(to, "unset key\nset xlabel 'time, s'\nset xrange [%.10g:%.10g]\n",
+                fmin(0.0, time[0]), time[samples - 1]);
+        fprintf(to, "set format y '%%.3g'\n");
+        for (int i = 0; i < n; i++) {
+            draw_one_series(r, to, list[i], time, i);
+            fprintf(to, "unset label\n");
+        }
+        fprintf(to, "unset multiplot\n");
+        picture_close(&p);
+        xfree(scene);
+        xfree(head);
     }
-    fprintf(to, "unset multiplot\n");
-    close_picture(&p);
     xfree(time);
 }
 
@@ -398,22 +261,13 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: plot DIR\n");
         return EXIT_SCENE;
     }
-    struct run r = {.directory = argv[1]};
-    char *const path = xprintf("%s/run.nc", argv[1]);
-    const int status = nc_open(path, NC_NOWRITE, &r.nc);
-    if (status != NC_NOERR)
-        die(EXIT_SCENE, "%s: cannot be read: %s", path, nc_strerror(status));
+    struct run_file r = run_open(argv[1]);
     if (system("command -v gnuplot > /dev/null") != 0)
         die(EXIT_WRITE, "there is no gnuplot (package gnuplot-nox)");
-    char *const file = text_attribute(&r, NC_GLOBAL, "scene_file");
-    char *const revision = text_attribute(&r, NC_GLOBAL, "revision");
-    r.title = xprintf("silt %s, %s", revision, file);
+    signal(SIGPIPE, SIG_IGN); /* a gnuplot that ends early shows in its status */
     draw_figures(&r);
-    draw_bed(&r);
+    picture_bed(&r);
     draw_series(&r);
-    nc_close(r.nc);
-    void *const all[] = {path, file, revision, r.title};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        xfree(all[i]);
+    run_close(&r);
     return EXIT_GOOD;
 }

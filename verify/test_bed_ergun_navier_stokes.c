@@ -1,5 +1,5 @@
-/* verify/test_bed_ergun_navier_stokes.c - a uniform bed, ergun, navier_stokes: see uniform_bed.h.
- * slots: drag/ergun porosity/divided solver/fluid/navier_stokes
+/* verify/test_bed_ergun_navier_stokes.c - a uniform bed, ergun, navier_stokes: see
+ * uniform_bed.h. slots: drag/ergun porosity/divided solver/fluid/navier_stokes
  */
 #include "uniform_bed.h"
 

@@ -1,6 +1,6 @@
 /* verify/test_contact_contract.c - what every answer of contact/ must obey: no force without
- * overlap, no pull, the same force in every lane, a rotated pair feels the rotated force, and no
- * energy made by springs, dashpots and sliders over closed paths. */
+ * overlap, no pull, the same force in every lane, a rotated pair feels the rotated force, and
+ * no energy made by springs, dashpots and sliders over closed paths. */
 #include "answers.h"
 #include "../contact/contact.h"
 
@@ -35,8 +35,9 @@ static struct law start(void *answer, const char *restitution)
     int n = 0;
     for (const struct key *k = law.keys; k->section && n < 64; k++)
         if (strcmp(k->section, "material") == 0 && !k->standard)
-            set[n++] = xprintf("material m.%s=%s", k->name,
-                               strcmp(k->name, "restitution") == 0 ? restitution : plausible(k));
+            set[n++] =
+                xprintf("material m.%s=%s", k->name,
+                        strcmp(k->name, "restitution") == 0 ? restitution : plausible(k));
     struct scene *const scene = scene_load(NULL, n, set);
     const char *const name = "m";
     scene_declare(scene, law.keys);
@@ -124,13 +125,13 @@ static void check_frame(const struct law *law, const char *name)
         lanes = lanes && memcmp(&t.fx[0], &t.fx[77], sizeof(double)) == 0 &&
                 memcmp(&t.fz[0], &t.fz[77], sizeof(double)) == 0;
     }
-    check(off <= 1e-11 * largest, "%s: the rotated pair feels the rotated force (%g of %g N)", name,
-          off, largest);
+    check(off <= 1e-11 * largest, "%s: the rotated pair feels the rotated force (%g of %g N)",
+          name, off, largest);
     check(lanes, "%s: every lane computes the same bits", name);
 }
 
-/* Work done by the contact over closed paths: pressed, sheared, released. It must not be positive
- * beyond the error of the step. */
+/* Work done by the contact over closed paths: pressed, sheared, released. It must not be
+ * positive beyond the error of the step. */
 static void check_energy(const struct law *law, const char *name, double shear, double phase)
 {
     static struct touch t;
@@ -152,8 +153,8 @@ static void check_energy(const struct law *law, const char *name, double shear, 
         work += power;
         size += fabs(power);
     }
-    check(work <= 2e-4 * size, "%s: a closed path (shear %g m) makes no energy: %.3g of %.3g J", name,
-          shear, work, size);
+    check(work <= 2e-4 * size, "%s: a closed path (shear %g m) makes no energy: %.3g of %.3g J",
+          name, shear, work, size);
 }
 
 static void visit(const char *name, void *answer)

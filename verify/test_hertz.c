@@ -1,7 +1,6 @@
 /* verify/test_hertz.c - Hertz-Mindlin in whole runs: restitution, overlap and duration of an
- * elastic impact against Hertz [ChungOoi11, tests 1 and 2], energy, momentum, oblique impacts in
- * the sliding range (test 4).
- * slots: contact/hertz_mindlin
+ * elastic impact against Hertz [ChungOoi11, tests 1 and 2], energy, momentum, oblique impacts
+ * in the sliding range (test 4). slots: contact/hertz_mindlin
  */
 #include "two_bodies.h"
 
@@ -13,14 +12,16 @@ static void check_hertz(const char *name, double young, double nu, double densit
                         double duration)
 {
     const double dt = duration / 2000.0;
-    char *const text = xprintf(
-        "[grains a]\ndiameter = 20 mm\ndensity = %g kg/m3\nfill = point\n"
-        "position = 39.9 50 50 mm\nvelocity = 10 0 0 m/s\nmaterial = m\n"
-        "[grains b]\ndiameter = 20 mm\ndensity = %g kg/m3\nfill = point\n"
-        "position = 60.1 50 50 mm\nvelocity = -10 0 0 m/s\nmaterial = m\n"
-        "[domain]\nsize = 100 100 100 mm\ngravity = 0 0 0 m/s2\n"
-        "[run]\nend = 1 s\nsubsteps = 1\ndt = %.17g s\n[material m]\nyoung = %g Pa\npoisson = %g\n"
-        "restitution = 1\nfriction = 0.35\n", density, density, dt, young, nu);
+    char *const text =
+        xprintf("[grains a]\ndiameter = 20 mm\ndensity = %g kg/m3\nfill = point\n"
+                "position = 39.9 50 50 mm\nvelocity = 10 0 0 m/s\nmaterial = m\n"
+                "[grains b]\ndiameter = 20 mm\ndensity = %g kg/m3\nfill = point\n"
+                "position = 60.1 50 50 mm\nvelocity = -10 0 0 m/s\nmaterial = m\n"
+                "[domain]\nsize = 100 100 100 mm\ngravity = 0 0 0 m/s2\n"
+                "[run]\nend = 1 s\nsubsteps = 1\ndt = %.17g s\n[material m]\nyoung = %g "
+                "Pa\npoisson = %g\n"
+                "restitution = 1\nfriction = 0.35\n",
+                density, density, dt, young, nu);
     struct sim *const s = sim_from(text);
     long steps = 0;
     double deepest = 0.0;
@@ -35,7 +36,8 @@ static void check_hertz(const char *name, double young, double nu, double densit
             break;
         }
     }
-    char *const what[2] = {xprintf("%s: largest overlap, m", name), xprintf("%s: duration, s", name)};
+    char *const what[2] = {xprintf("%s: largest overlap, m", name),
+                           xprintf("%s: duration, s", name)};
     check_rel(deepest, depth, 1e-3, what[0]);
     check_rel((double)steps * dt, duration, 1e-3, what[1]);
     check_rel(s->grains.vel[grain_at(s, 1)].x, 10.0, 1e-4, "rebound speed");
@@ -45,7 +47,8 @@ static void check_hertz(const char *name, double young, double nu, double densit
     xfree(text);
 }
 
-/* While the contact slides throughout: v_t' = v_t - mu (1 + e) v_n, w' = 2.5 mu (1 + e) v_n/R. */
+/* While the contact slides throughout: v_t' = v_t - mu (1 + e) v_n, w' = 2.5 mu (1 + e) v_n/R.
+ */
 static void check_sliding(double angle)
 {
     const double speed = 3.9, e = 0.98, mu = 0.092, r = 2.5e-3;
@@ -55,7 +58,8 @@ static void check_sliding(double angle)
         "position = 50 50 2.51 mm\nvelocity = %.17g 0 %.17g m/s\nmaterial = m\n[domain]\n"
         "size = 100 100 100 mm\ngravity = 0 0 0 m/s2\nx = periodic\ny = periodic\n"
         "[run]\nend = 1 s\nsubsteps = 1\ndt = 5 ns\n[material m]\nyoung = 7.6e11 Pa\n"
-        "poisson = 0.23\nrestitution = %g\nfriction = %g\n", vt, -vn, e, mu);
+        "poisson = 0.23\nrestitution = %g\nfriction = %g\n",
+        vt, -vn, e, mu);
     struct sim *const s = sim_from(text);
     bool touched = false;
     for (;;) {

@@ -16,7 +16,8 @@ static void check_oblique(double ratio)
         "position = 50 50 5.05 mm\nvelocity = %g 0 %g m/s\nmaterial = m\n[domain]\n"
         "size = 100 100 100 mm\ngravity = 0 0 0 m/s2\nx = periodic\ny = periodic\n"
         "[run]\nend = 1 s\nsubsteps = 1\ndt = 2 ns\n[material m]\nstiffness = 4.6e7 N/m\n"
-        "stiffness_ratio = %g\nrestitution = 1\nfriction = 1e6\n", vt, -vn, ratio);
+        "stiffness_ratio = %g\nrestitution = 1\nfriction = 1e6\n",
+        vt, -vn, ratio);
     struct sim *const s = sim_from(text);
     bool touched = false;
     for (;;) {

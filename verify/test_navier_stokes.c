@@ -14,11 +14,12 @@ static const double rho = 1100.0, mu = 0.037;
 static double channel(int n, double drive, double wall)
 {
     const double H = 0.013, nu = mu / rho, dt = 0.2 * H * H / (n * (double)n * nu);
-    char *const text = xprintf(
-        FLUID "dt = %.17g s\n[domain]\nsize = 10 %g 10 mm\ncells = 2 %d 1\nx = periodic\nz = periodic\n"
-              "y- = wall\ny+ = wall\n[side y+]\nvelocity = %g 0 0 m/s\n"
-              "[flow]\npressure_gradient = %g 0 0 Pa/m\n[run]\nend = 1e9 s\n",
-        dt, 1e3 * H, n, wall, drive);
+    char *const text =
+        xprintf(FLUID "dt = %.17g s\n[domain]\nsize = 10 %g 10 mm\ncells = 2 %d 1\nx = "
+                      "periodic\nz = periodic\n"
+                      "y- = wall\ny+ = wall\n[side y+]\nvelocity = %g 0 0 m/s\n"
+                      "[flow]\npressure_gradient = %g 0 0 Pa/m\n[run]\nend = 1e9 s\n",
+                dt, 1e3 * H, n, wall, drive);
     struct sim *const s = sim_from(text);
     for (int k = 0; k < 15 * n * n; k++)
         step(s);
@@ -34,7 +35,8 @@ static double channel(int n, double drive, double wall)
     return worst / fastest;
 }
 
-/* Taylor and Green's vortices in the plane of two directions a, b: error after half a decay time. */
+/* Taylor and Green's vortices in the plane of two directions a, b: error after half a decay
+ * time. */
 static double taylor_green(int n, int a, int b)
 {
     const double L = 2.0 * PI * 0.01, k = 100.0, U = 0.05, nu = mu / rho;
@@ -43,8 +45,9 @@ static double taylor_green(int n, int a, int b)
     int cells[3] = {1, 1, 1};
     cells[a] = cells[b] = n;
     char *const text = xprintf(
-        FLUID "dt = %.17g s\n[domain]\nsize = %.17g %.17g %.17g m\ncells = %d %d %d\nx = periodic\n"
-              "y = periodic\nz = periodic\n[run]\nend = 1e9 s\n",
+        FLUID
+        "dt = %.17g s\n[domain]\nsize = %.17g %.17g %.17g m\ncells = %d %d %d\nx = periodic\n"
+        "y = periodic\nz = periodic\n[run]\nend = 1e9 s\n",
         end / steps, L, L, L, cells[0], cells[1], cells[2]);
     struct sim *const s = sim_from(text);
     const struct grid *const g = &s->grid;
@@ -81,17 +84,20 @@ static void check_order(const char *what, double coarse, double fine)
           log2(coarse / fine));
 }
 
-#define SUSPENSION                                                                                  \
-    "[grains a]\ndiameter = 1 mm\ndensity = 2650 kg/m3\nfill = random\ncount = 300\nmaterial = m\n"  \
-    "[grains b]\ndiameter = 2 mm\ndensity = 800 kg/m3\nfill = random\ncount = 60\nmaterial = m\n"    \
-    "[material m]\nstiffness = 100 N/m\nrestitution = 0.6\nfriction = 0.4\n"                         \
-    "[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 0.5 ms\n"                              \
+#define SUSPENSION                                                                             \
+    "[grains a]\ndiameter = 1 mm\ndensity = 2650 kg/m3\nfill = random\ncount = 300\nmaterial " \
+    "= m\n"                                                                                    \
+    "[grains b]\ndiameter = 2 mm\ndensity = 800 kg/m3\nfill = random\ncount = 60\nmaterial = " \
+    "m\n"                                                                                      \
+    "[material m]\nstiffness = 100 N/m\nrestitution = 0.6\nfriction = 0.4\n"                   \
+    "[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 0.5 ms\n"                        \
     "[run]\nend = 1 s\ndt = 20 us\n"
 
 /* Grains rise and sink among each other between these sides. */
 static void check_suspension(const char *sides, const char *what)
 {
-    char *const text = xprintf(SUSPENSION "[domain]\nsize = 12 14 30 mm\ncells = 4 5 10\n%s", sides);
+    char *const text =
+        xprintf(SUSPENSION "[domain]\nsize = 12 14 30 mm\ncells = 4 5 10\n%s", sides);
     struct sim *const s = sim_from(text);
     ledger_start(s);
     double divergence = 0.0;
@@ -129,11 +135,11 @@ static unsigned long bits(int threads)
 /* Still fluid over a random frozen bed: nothing moves, each grain feels its buoyancy. */
 static void check_still(void)
 {
-    struct sim *const s =
-        sim_from("[grains a]\ndiameter = 2 mm\ndensity = 2650 kg/m3\nfill = random\ncount = 200\n"
-                 "frozen = yes\n[material a]\nstiffness = 100 N/m\nrestitution = 0.6\n"
-                 "friction = 0.4\n[domain]\nsize = 12 14 30 mm\ncells = 4 5 10\nz+ = outflow\n"
-                 "[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 0.5 ms\n[run]\nend = 1 s\n");
+    struct sim *const s = sim_from(
+        "[grains a]\ndiameter = 2 mm\ndensity = 2650 kg/m3\nfill = random\ncount = 200\n"
+        "frozen = yes\n[material a]\nstiffness = 100 N/m\nrestitution = 0.6\n"
+        "friction = 0.4\n[domain]\nsize = 12 14 30 mm\ncells = 4 5 10\nz+ = outflow\n"
+        "[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 0.5 ms\n[run]\nend = 1 s\n");
     for (int k = 0; k < 50; k++)
         step(s);
     double moves = 0.0, off = 0.0;
@@ -157,8 +163,10 @@ int main(void)
     check_order("Taylor-Green, x z", taylor_green(16, 0, 2), taylor_green(32, 0, 2));
     check_still();
     check_suspension("x = periodic\ny = periodic\n", "closed below and above");
-    check_suspension("x = slip\nz- = inflow\nz+ = outflow\n[flow]\nvelocity = 15 mm/s\n", "through flow");
-    check_suspension("y = slip\nx- = inflow\nx+ = outflow\n[flow]\nvelocity = 15 mm/s\n", "along x");
+    check_suspension("x = slip\nz- = inflow\nz+ = outflow\n[flow]\nvelocity = 15 mm/s\n",
+                     "through flow");
+    check_suspension("y = slip\nx- = inflow\nx+ = outflow\n[flow]\nvelocity = 15 mm/s\n",
+                     "along x");
     check_suspension("x = slip\nz+ = outflow\n", "open above");
     const unsigned long one = bits(1);
     const int threads[] = {2, 3, 7, 16};

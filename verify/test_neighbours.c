@@ -1,20 +1,21 @@
-/* verify/test_neighbours.c - the pair list against brute force, over rebuilds, sorting, periodic
- * sides and two sizes of grains; bits on 1, 2, 3, 7 and 16 threads.
- * slots: contact/hertz_mindlin
+/* verify/test_neighbours.c - the pair list against brute force, over rebuilds, sorting,
+ * periodic sides and two sizes of grains; bits on 1, 2, 3, 7 and 16 threads. slots:
+ * contact/hertz_mindlin
  */
 #include <omp.h>
 #include "check.h"
 #include "harness.h"
 
-#define SCENE "[grains a]\ndiameter = 3 mm\ndensity = 2385 kg/m3\nfill = random\ncount = 150\n" \
-              "velocity = 1 0.3 -0.2 m/s\nmaterial = m\n" \
-              "[grains b]\ndiameter = 1.3 mm\ndensity = 1723 kg/m3\nfill = random\ncount = 900\n" \
-              "velocity = -1 -0.7 0.4 m/s\nspin = 100 30 7 rad/s\nmaterial = m\n" \
-              "[grains c]\ndiameter = 1 mm\ndensity = 1723 kg/m3\nfill = random\ncount = 50\n" \
-              "frozen = yes\nmaterial = m\n" \
-              "[domain]\nsize = 20 21 32 mm\nx = periodic\ny = periodic\n" \
-              "[material m]\nyoung = 2e7 Pa\npoisson = 0.3\nrestitution = 0.7\nfriction = 0.4\n" \
-              "[run]\nend = 1 s\nsubsteps = 50\ndt = 3 us\noverlap_max = 0.3\n"
+#define SCENE                                                                                  \
+    "[grains a]\ndiameter = 3 mm\ndensity = 2385 kg/m3\nfill = random\ncount = 150\n"          \
+    "velocity = 1 0.3 -0.2 m/s\nmaterial = m\n"                                                \
+    "[grains b]\ndiameter = 1.3 mm\ndensity = 1723 kg/m3\nfill = random\ncount = 900\n"        \
+    "velocity = -1 -0.7 0.4 m/s\nspin = 100 30 7 rad/s\nmaterial = m\n"                        \
+    "[grains c]\ndiameter = 1 mm\ndensity = 1723 kg/m3\nfill = random\ncount = 50\n"           \
+    "frozen = yes\nmaterial = m\n"                                                             \
+    "[domain]\nsize = 20 21 32 mm\nx = periodic\ny = periodic\n"                               \
+    "[material m]\nyoung = 2e7 Pa\npoisson = 0.3\nrestitution = 0.7\nfriction = 0.4\n"         \
+    "[run]\nend = 1 s\nsubsteps = 50\ndt = 3 us\noverlap_max = 0.3\n"
 
 /* Contacts by brute force: every pair, every wall. */
 static long brute(const struct sim *s)
@@ -28,9 +29,9 @@ static long brute(const struct sim *s)
             touching += move && v3_norm(r) < g->radius[i] + g->radius[j];
         }
         for (int w = 0; w < s->walls.n; w++)
-            touching += g->inv_mass[i] > 0.0 &&
-                        v3_dot(v3_sub(g->pos[i], s->walls.wall[w].point), s->walls.wall[w].normal) <
-                            g->radius[i];
+            touching +=
+                g->inv_mass[i] > 0.0 && v3_dot(v3_sub(g->pos[i], s->walls.wall[w].point),
+                                               s->walls.wall[w].normal) < g->radius[i];
     }
     return touching;
 }
@@ -60,10 +61,10 @@ int main(void)
     check(wrong == 0, "the list finds every contact: %ld of 200 looks differ", wrong);
     check(most > 50, "there are contacts to find: up to %ld", most);
     check(s->neighbours.builds > 5, "the list was rebuilt %ld times", s->neighbours.builds);
-    check(s->ledger.momentum_error < 1e-12, "momentum with walls and frozen grains closes: %.3g",
-          s->ledger.momentum_error);
-    check(s->ledger.dissipated_least >= -1e-3 * s->ledger.dissipated, "contacts make no energy: %.3g J",
-          s->ledger.dissipated_least);
+    check(s->ledger.momentum_error < 1e-12,
+          "momentum with walls and frozen grains closes: %.3g", s->ledger.momentum_error);
+    check(s->ledger.dissipated_least >= -1e-3 * s->ledger.dissipated,
+          "contacts make no energy: %.3g J", s->ledger.dissipated_least);
     sim_free(s);
     const unsigned long one = bits(1);
     const int threads[] = {2, 3, 7, 16};

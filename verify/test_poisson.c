@@ -1,5 +1,6 @@
-/* verify/test_poisson.c - the direct solve and the conjugate gradients: every pair of sides in every
- * direction, layered and random coefficients, one-cell directions, bits on 1 to 7 threads.
+/* verify/test_poisson.c - the direct solve and the conjugate gradients: every pair of sides in
+ * every direction, layered and random coefficients, one-cell directions, bits on 1 to 7
+ * threads.
  */
 #include <omp.h>
 #include <string.h>
@@ -50,7 +51,8 @@ static double residual(const struct grid *g, const struct pressure *p, double *c
                 double sum = -shift * phi[m] - rhs[m];
                 for (int a = 0; a < 3; a++) {
                     const int s = g->s[a];
-                    sum += (c[a][m + s] * (phi[m + s] - phi[m]) - c[a][m] * (phi[m] - phi[m - s])) /
+                    sum += (c[a][m + s] * (phi[m + s] - phi[m]) -
+                            c[a][m] * (phi[m] - phi[m - s])) /
                            (g->h[a] * g->h[a]);
                 }
                 worst = fmax(worst, fabs(sum));
@@ -70,7 +72,7 @@ static void check_direct(const int n[3], double shift)
     double worst = 0.0;
     for (int q = 0; q < 125; q++) {
         const enum poisson_side *const x = pair[q % 5], *const y = pair[q / 5 % 5],
-                                *const z = pair[q / 25];
+                                       *const z = pair[q / 25];
         const enum poisson_side side[6] = {x[0], x[1], y[0], y[1], z[0], z[1]};
         const struct domain d = box(n, side);
         struct grid g;
@@ -99,8 +101,9 @@ static void check_direct(const int n[3], double shift)
         poisson_free(direct);
         pressure_free(p);
     }
-    check(worst < 1e-10, "direct solve, %d x %d x %d, shift %g, 125 pairs of sides: residual %.2g",
-          n[0], n[1], n[2], shift, worst);
+    check(worst < 1e-10,
+          "direct solve, %d x %d x %d, shift %g, 125 pairs of sides: residual %.2g", n[0], n[1],
+          n[2], shift, worst);
 }
 
 /* Conjugate gradients on one case; the solution's bits. */
@@ -151,8 +154,9 @@ int main(void)
     const double contrasts[] = {3.0, 100.0};
     for (int i = 0; i < 2; i++) {
         conjugate(contrasts[i], false, &worst, &iterations);
-        check(iterations > 0 && worst < 1e-9, "random c, contrast %g: residual %.2g in %d iterations",
-              contrasts[i], worst, iterations);
+        check(iterations > 0 && worst < 1e-9,
+              "random c, contrast %g: residual %.2g in %d iterations", contrasts[i], worst,
+              iterations);
     }
     conjugate(1e6, true, &worst, &iterations);
     check(iterations > 0 && iterations < 30 && worst < 1e-6,
@@ -162,8 +166,8 @@ int main(void)
     const int threads[] = {2, 3, 7, 16};
     for (int i = 0; i < 4; i++) {
         omp_set_num_threads(threads[i]);
-        check(conjugate(10.0, false, &worst, &iterations) == one, "the same bits on 1 and %d threads",
-              threads[i]);
+        check(conjugate(10.0, false, &worst, &iterations) == one,
+              "the same bits on 1 and %d threads", threads[i]);
     }
     return check_end();
 }

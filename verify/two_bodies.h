@@ -1,23 +1,25 @@
-/* verify/two_bodies.h - tests that every law with restitution must pass; included by a test that
- * links one law and gives its material. */
+/* verify/two_bodies.h - tests that every law with restitution must pass; included by a test
+ * that links one law and gives its material. */
 #ifndef TWO_BODIES_H
 #define TWO_BODIES_H
 
 #include "check.h"
 #include "harness.h"
 
-#define TWO "[grains a]\ndiameter = 10 mm\ndensity = 2385 kg/m3\nfill = point\n" \
-            "position = 40 50.3 50.7 mm\nvelocity = 0.5 0 0 m/s\nmaterial = m\n" \
-            "[grains b]\ndiameter = 14 mm\ndensity = 1723 kg/m3\nfill = point\n" \
-            "position = 52.1 50.3 50.7 mm\nvelocity = -0.3 0 0 m/s\nmaterial = m\n" \
-            "[domain]\nsize = 100 100 100 mm\ngravity = 0 0 0 m/s2\nx = periodic\n" \
-            "y = periodic\nz = periodic\n[run]\nend = 1 s\nsubsteps = 1\n"
+#define TWO                                                                                    \
+    "[grains a]\ndiameter = 10 mm\ndensity = 2385 kg/m3\nfill = point\n"                       \
+    "position = 40 50.3 50.7 mm\nvelocity = 0.5 0 0 m/s\nmaterial = m\n"                       \
+    "[grains b]\ndiameter = 14 mm\ndensity = 1723 kg/m3\nfill = point\n"                       \
+    "position = 52.1 50.3 50.7 mm\nvelocity = -0.3 0 0 m/s\nmaterial = m\n"                    \
+    "[domain]\nsize = 100 100 100 mm\ngravity = 0 0 0 m/s2\nx = periodic\n"                    \
+    "y = periodic\nz = periodic\n[run]\nend = 1 s\nsubsteps = 1\n"
 
 /* Head-on impact of unlike spheres: rebound over impact speed. */
 static inline double rebound(const char *material, double e, double dt)
 {
-    char *const text = xprintf(TWO "dt = %.17g s\n[material m]\n%srestitution = %.17g\nfriction = 0.3\n",
-                               dt, material, e);
+    char *const text =
+        xprintf(TWO "dt = %.17g s\n[material m]\n%srestitution = %.17g\nfriction = 0.3\n", dt,
+                material, e);
     struct sim *const s = sim_from(text);
     bool touched = false;
     for (long k = 0; k < 100000000; k++) {
@@ -42,13 +44,16 @@ static inline void check_restitution(const char *material, double dt)
     }
 }
 
-/* A sphere bounces elastically on the floor for 1e5 steps: energy at the top of the last flight. */
+/* A sphere bounces elastically on the floor for 1e5 steps: energy at the top of the last
+ * flight. */
 static inline void check_energy(const char *material, double dt)
 {
-    char *const text = xprintf("[grains a]\ndiameter = 10 mm\ndensity = 2385 kg/m3\nfill = point\n"
-                               "position = 20 20 7 mm\nmaterial = m\n[domain]\nsize = 40 40 40 mm\n"
-                               "[run]\nend = 1e9 s\nsubsteps = 100\ndt = %.17g s\n[material m]\n%s"
-                               "restitution = 1\nfriction = 0.3\n", dt, material);
+    char *const text =
+        xprintf("[grains a]\ndiameter = 10 mm\ndensity = 2385 kg/m3\nfill = point\n"
+                "position = 20 20 7 mm\nmaterial = m\n[domain]\nsize = 40 40 40 mm\n"
+                "[run]\nend = 1e9 s\nsubsteps = 100\ndt = %.17g s\n[material m]\n%s"
+                "restitution = 1\nfriction = 0.3\n",
+                dt, material);
     struct sim *const s = sim_from(text);
     ledger_start(s);
     const double start = s->ledger.potential;
@@ -80,15 +85,17 @@ static inline void check_momentum(const char *material, double dt)
         "velocity = -1 -0.7 0.4 m/s\nmaterial = m\n"
         "[domain]\nsize = 12 12 12 mm\ngravity = 0 0 0 m/s2\nx = periodic\ny = periodic\n"
         "z = periodic\n[run]\nend = 1 s\nsubsteps = 20000\ndt = %.17g s\n[material m]\n%s"
-        "restitution = 0.7\nfriction = 0.3\n", dt, material);
+        "restitution = 0.7\nfriction = 0.3\n",
+        dt, material);
     struct sim *const s = sim_from(text);
     ledger_start(s);
     const double before = s->ledger.kinetic;
     step(s);
-    check(s->ledger.kinetic < 0.95 * before, "grains collide: kinetic energy falls to %.3g of its start",
+    check(s->ledger.kinetic < 0.95 * before,
+          "grains collide: kinetic energy falls to %.3g of its start",
           s->ledger.kinetic / before);
-    check(s->ledger.momentum_error < 1e-13, "momentum in a periodic box kept to round-off: %.3g",
-          s->ledger.momentum_error);
+    check(s->ledger.momentum_error < 1e-13,
+          "momentum in a periodic box kept to round-off: %.3g", s->ledger.momentum_error);
     check(s->ledger.dissipated >= 0.0, "contacts dissipate: %.3g J", s->ledger.dissipated);
     sim_free(s);
     xfree(text);

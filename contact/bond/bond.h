@@ -1,9 +1,9 @@
 /* contact/bond/bond.h - contract: what holds two grains glued together?
  *
  * To add one: copy none.c to contact/bond/NAME.c. Called after the other laws for each block;
- * adds to fx..fz and mx..mz. Bonds live in their rows of history (row 0: 0 never bonded, 1 intact,
- * -1 broken), are made from the gap at a given time, and keep a contact alive up to bond_range.
- * Parameters and threads as in contact/contact.h. */
+ * adds to fx..fz and mx..mz. Bonds live in their rows of history (row 0: 0 never bonded, 1
+ * intact, -1 broken), are made from the gap at a given time, and keep a contact alive up to
+ * bond_range. Parameters and threads as in contact/contact.h. */
 #ifndef BOND_H
 #define BOND_H
 

@@ -1,8 +1,11 @@
 /* contact/bond/none.c - nothing is glued. Also the template: copy it, keep every symbol. */
 #include "bond.h"
 
-const struct about bond_about = {
-    .name = "none", .summary = "nothing is glued", .equation = "", .source = "", .range = "always"};
+const struct about bond_about = {.name = "none",
+                                 .summary = "nothing is glued",
+                                 .equation = "",
+                                 .source = "",
+                                 .range = "always"};
 const struct key bond_keys[] = {{0}};
 const int bond_history = 0;
 

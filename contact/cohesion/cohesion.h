@@ -1,8 +1,8 @@
 /* contact/cohesion/cohesion.h - contract: what pulls when wet or sticky?
  *
- * To add one: copy none.c to contact/cohesion/NAME.c. Called after contact_forces for each block;
- * adds to fx..fz. It may act across a gap (depth < 0) up to cohesion_range: the loop then keeps
- * the contact alive that far. Parameters and threads as in contact/contact.h. */
+ * To add one: copy none.c to contact/cohesion/NAME.c. Called after contact_forces for each
+ * block; adds to fx..fz. It may act across a gap (depth < 0) up to cohesion_range: the loop
+ * then keeps the contact alive that far. Parameters and threads as in contact/contact.h. */
 #ifndef COHESION_H
 #define COHESION_H
 

@@ -1,8 +1,11 @@
 /* contact/cohesion/none.c - nothing pulls. Also the template: copy it, keep every symbol. */
 #include "cohesion.h"
 
-const struct about cohesion_about = {
-    .name = "none", .summary = "nothing pulls", .equation = "", .source = "", .range = "always"};
+const struct about cohesion_about = {.name = "none",
+                                     .summary = "nothing pulls",
+                                     .equation = "",
+                                     .source = "",
+                                     .range = "always"};
 const struct key cohesion_keys[] = {{0}};
 const int cohesion_history = 0;
 

@@ -1,8 +1,12 @@
-/* contact/rolling/none.c - no resistance to rolling. Also the template: copy it, keep every symbol. */
+/* contact/rolling/none.c - no resistance to rolling. Also the template: copy it, keep every
+ * symbol. */
 #include "rolling.h"
 
-const struct about rolling_about = {
-    .name = "none", .summary = "no resistance to rolling", .equation = "", .source = "", .range = "always"};
+const struct about rolling_about = {.name = "none",
+                                    .summary = "no resistance to rolling",
+                                    .equation = "",
+                                    .source = "",
+                                    .range = "always"};
 const struct key rolling_keys[] = {{0}};
 const int rolling_history = 0;
 

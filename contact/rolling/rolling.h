@@ -1,8 +1,8 @@
 /* contact/rolling/rolling.h - contract: what resists rolling?
  *
- * To add one: copy none.c to contact/rolling/NAME.c. Called after contact_forces for each block;
- * adds to mx, my, mz from fn, the relative spin, and its own rows of history. Parameters and
- * threads as in contact/contact.h. */
+ * To add one: copy none.c to contact/rolling/NAME.c. Called after contact_forces for each
+ * block; adds to mx, my, mz from fn, the relative spin, and its own rows of history. Parameters
+ * and threads as in contact/contact.h. */
 #ifndef ROLLING_H
 #define ROLLING_H
 

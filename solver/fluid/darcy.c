@@ -5,11 +5,12 @@
  * solved for p. The drag law gives the conductivity: without inertia the momentum balance is
  * 0 = -m grad p - (B u - S), m = eps_f, so that
  *   m u = S m/B - (m^2/B) grad p
- * and m^2/B = k/mu on a face, the harmonic mean of the two cells (coupling.h): a layered column is
- * exact. Backward Euler in time. A law that depends on the velocity (Ergun) is iterated (Picard).
+ * and m^2/B = k/mu on a face, the harmonic mean of the two cells (coupling.h): a layered column
+ * is exact. Backward Euler in time. A law that depends on the velocity (Ergun) is iterated
+ * (Picard).
  *
- * Cells without grains do not resist: the conductivity of a face is held below fluid.contrast times
- * the smallest of the bed; the number of faces so held is a time series. */
+ * Cells without grains do not resist: the conductivity of a face is held below fluid.contrast
+ * times the smallest of the bed; the number of faces so held is a time series. */
 #include "fluid.h"
 
 #include <string.h>
@@ -47,8 +48,8 @@ struct fluid_work {
     double *rhs, *p_new, *dp;
     double *u_before[3]; /* solved in the round before */
     double tolerance, picard, contrast, storage, source;
-    double gravity;          /* m/s2, for heads */
-    double held;             /* faces whose conductivity is held, for the series */
+    double gravity; /* m/s2, for heads */
+    double held;    /* faces whose conductivity is held, for the series */
     double iterations;
 };
 
@@ -62,10 +63,11 @@ static void check_sides(struct sim *s, struct scene *scene)
     }
     const bool stores = scene_real(scene, "fluid", NULL, "storage") > 0.0;
     if (!open && !stores && (pushed || scene_real(scene, "fluid", NULL, "source") != 0.0))
-        scene_error(scene, "domain", NULL, NULL,
-                    "what flows in must go somewhere: a head or outflow side, or fluid.storage");
-    if (v3_norm(s->flow.gradient) > 0.0 && !(s->domain.periodic[0] || s->domain.periodic[1] ||
-                                             s->domain.periodic[2]))
+        scene_error(
+            scene, "domain", NULL, NULL,
+            "what flows in must go somewhere: a head or outflow side, or fluid.storage");
+    if (v3_norm(s->flow.gradient) > 0.0 &&
+        !(s->domain.periodic[0] || s->domain.periodic[1] || s->domain.periodic[2]))
         scene_error(scene, "flow", NULL, "pressure_gradient", "no direction is periodic");
 }
 
@@ -93,8 +95,8 @@ void fluid_create(struct sim *s, struct scene *scene)
     }
     series_add(&s->series, "pressure_iterations", "1", "iterations of the last head solve",
                &w->iterations);
-    series_add(&s->series, "faces_held", "1", "faces whose conductivity is held at the contrast",
-               &w->held);
+    series_add(&s->series, "faces_held", "1",
+               "faces whose conductivity is held at the contrast", &w->held);
 }
 
 void fluid_free(struct sim *s)
@@ -142,8 +144,10 @@ static void conductivities(struct sim *s)
                     least = fmin(least, w->conductivity[a][c]);
                 }
     if (!isfinite(least))
-        die(EXIT_UNSTABLE, "no cell resists the flow at t = %.9g s: darcy needs grains and a drag "
-                           "law other than none", s->t);
+        die(EXIT_UNSTABLE,
+            "no cell resists the flow at t = %.9g s: darcy needs grains and a drag "
+            "law other than none",
+            s->t);
     w->held = 0.0;
     for (int a = 0; a < 3; a++)
         for (int k = 1; k <= face_last(g, a, 2); k++)
@@ -168,7 +172,9 @@ static double held(const struct sim *s, int side)
 static double carried(const struct sim *s, int a, int c)
 {
     const struct fluid *const f = &s->fluid;
-    const double drive = a == 0 ? s->flow.gradient.x : a == 1 ? s->flow.gradient.y : s->flow.gradient.z;
+    const double drive = a == 0   ? s->flow.gradient.x
+                         : a == 1 ? s->flow.gradient.y
+                                  : s->flow.gradient.z;
     const double m = f->eps_f[a][c];
     const double by_grains = f->drag[a][c] > 0.0 ? m * f->drag_s[a][c] / f->drag[a][c] : 0.0;
     return by_grains + f->work->conductivity[a][c] * drive;
@@ -230,25 +236,27 @@ static void solve_head(struct sim *s)
             }
     const double lost = pressure_imbalance(w->pressure, shift, w->rhs);
     if (lost > 1e-6 && scale > 0.0)
-        die(EXIT_UNSTABLE, "what flows into the closed box has nowhere to go at t = %.9g s", s->t);
+        die(EXIT_UNSTABLE, "what flows into the closed box has nowhere to go at t = %.9g s",
+            s->t);
     const double floor = 1e-15 * scale * sqrt((double)g->n[0] * g->n[1] * g->n[2]);
     for (size_t c = 0; c < g->total; c++)
         w->dp[c] = 0.0;
-    const struct solve r = pressure_solve(w->pressure, w->conductivity, shift, w->rhs, w->dp,
-                                          w->tolerance, floor);
+    const struct solve r =
+        pressure_solve(w->pressure, w->conductivity, shift, w->rhs, w->dp, w->tolerance, floor);
     w->iterations = f->iterations = r.iterations;
     f->residual = r.start > 0.0 ? r.end / r.start : 0.0;
     if (!r.converged)
-        die(EXIT_UNSTABLE, "the head has not converged at t = %.9g s: residual %.3g of its start after "
-                           "%d iterations, fluid.tolerance is %g; a smaller fluid.contrast helps",
+        die(EXIT_UNSTABLE,
+            "the head has not converged at t = %.9g s: residual %.3g of its start after "
+            "%d iterations, fluid.tolerance is %g; a smaller fluid.contrast helps",
             s->t, f->residual, r.iterations, w->tolerance);
     for (size_t c = 0; c < g->total; c++)
         w->p_new[c] += w->dp[c];
     set_velocity(s, w->p_new);
 }
 
-/* Largest change of a velocity since u_before, and its distance from the one that the drag was taken
- * at, over the largest velocity. */
+/* Largest change of a velocity since u_before, and its distance from the one that the drag was
+ * taken at, over the largest velocity. */
 static double change(const struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
@@ -280,16 +288,18 @@ void fluid_step(struct sim *s)
         solve_head(s);
         changed = change(s);
         if (++rounds > PICARD_MOST)
-            die(EXIT_UNSTABLE, "the drag law and the velocity do not agree at t = %.9g s: it still "
-                               "changes by %.3g after %d rounds, fluid.picard is %g",
+            die(EXIT_UNSTABLE,
+                "the drag law and the velocity do not agree at t = %.9g s: it still "
+                "changes by %.3g after %d rounds, fluid.picard is %g",
                 s->t, changed, PICARD_MOST, w->picard);
     } while (changed > w->picard);
     memcpy(f->p, w->p_new, bytes);
     for (int a = 0; a < 3; a++)
         for (size_t c = 0; c < g->total; c++)
-            f->stress[a][c] = f->eps_f[a][c] > 0.0
-                                  ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / f->eps_f[a][c]
-                                  : 0.0;
+            f->stress[a][c] =
+                f->eps_f[a][c] > 0.0
+                    ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / f->eps_f[a][c]
+                    : 0.0;
     fluid_guard(s, false);
 }
 

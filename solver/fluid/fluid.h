@@ -5,8 +5,8 @@
  *   fluid_sense  the grains as the grid sees them: fluid fraction and drag coefficients
  *   fluid_step   the fields advance by fluid.dt, to the positions of the grains at hand
  *   fluid_load   the force of the fluid on each grain, constant over the sub-steps that follow
- * A solver calls coupling.h for the exchange with the grains; `none` refers to nothing, so that a
- * dry binary links neither the coupling nor FFTW. */
+ * A solver calls coupling.h for the exchange with the grains; `none` refers to nothing, so that
+ * a dry binary links neither the coupling nor FFTW. */
 #ifndef FLUID_H
 #define FLUID_H
 
@@ -27,13 +27,14 @@ struct fluid {
                           inside on a face of the boundary */
     double *drag[3];   /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
     double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
-    double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the rest */
+    double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the
+                          rest */
     struct fluid_work *work; /* the answer's own: solver, scratch, fields of steps before */
-    long steps;        /* taken so far */
-    int iterations;    /* of the last pressure solve */
-    double residual;   /* relative, of the last pressure solve */
-    double divergence; /* largest |d(eps)/dt + div(eps u)| h / U after the last step */
-    double courant;    /* largest sum over directions of u dt / h at the last step */
+    long steps;              /* taken so far */
+    int iterations;          /* of the last pressure solve */
+    double residual;         /* relative, of the last pressure solve */
+    double divergence;       /* largest |d(eps)/dt + div(eps u)| h / U after the last step */
+    double courant;          /* largest sum over directions of u dt / h at the last step */
 };
 
 extern const struct about fluid_about;

@@ -1,18 +1,19 @@
-/* solver/fluid/navier_stokes.c - volume-averaged Navier-Stokes, incompressible fluid among grains.
+/* solver/fluid/navier_stokes.c - volume-averaged Navier-Stokes, incompressible fluid among
+ * grains.
  *
  * Form 27a of the review, mended [AndersonJackson67], with p free of its hydrostatic part:
  *   rho d(eps u)/dt + rho div(eps u u) = eps (-grad p + div tau + f) - (B u - S)
  *   d(eps)/dt + div(eps u) = 0
- * (the review prints nabla u for div u, and returns buoyancy and pressure force to the fluid, which
- * eps grad p holds already). f is the pressure gradient that drives periodic directions.
+ * (the review prints nabla u for div u, and returns buoyancy and pressure force to the fluid,
+ * which eps grad p holds already). f is the pressure gradient that drives periodic directions.
  *
  * In time: convection and stress by Adams-Bashforth 2 (Euler at the first step), drag backward
  * Euler, pressure incremental [Chorin68], [vanKan86]:
  *   A u* = rho m_old u_old/dt + E + m (G_visc + f - grad p) + S,   A = rho m/dt + B,  m = eps_f
  *   div((m^2/A) grad dp) = div(m u*) + (eps - eps_old)/dt
  *   u = u* - (m/A) grad dp,   p += dp
- * The drag is in A, so the pressure equation knows it: a uniform bed gives the drag law's pressure
- * drop to round-off at any dt B/rho. */
+ * The drag is in A, so the pressure equation knows it: a uniform bed gives the drag law's
+ * pressure drop to round-off at any dt B/rho. */
 #include "fluid.h"
 
 #include "../feasibility.h"
@@ -21,7 +22,8 @@
 
 const struct about fluid_about = {
     .name = "navier_stokes",
-    .summary = "volume-averaged Navier-Stokes on a staggered grid, implicit drag, FFT pressure solve",
+    .summary =
+        "volume-averaged Navier-Stokes on a staggered grid, implicit drag, FFT pressure solve",
     .equation = "27a: rho d(eps u)/dt + rho div(eps u u) = -eps grad p + eps div tau - F_d",
     .source = "[AndersonJackson67], [vanKan86], [ConcusGolub73]",
     .range = "sum of u dt/h < 0.5, 4 nu dt sum 1/h^2 < 1; any drag"};
@@ -59,9 +61,11 @@ static void check_sides(struct sim *s, struct scene *scene)
         inflow = inflow || kind == SIDE_INFLOW;
         open = open || kind == SIDE_OUTFLOW;
         if (kind == SIDE_HEAD || kind == SIDE_FLUX)
-            scene_error(scene, "domain", NULL, side_name[side],
-                        "%s sides are for fluid = darcy; navier_stokes knows periodic, wall, slip, "
-                        "inflow, outflow", side_kind_name[kind]);
+            scene_error(
+                scene, "domain", NULL, side_name[side],
+                "%s sides are for fluid = darcy; navier_stokes knows periodic, wall, slip, "
+                "inflow, outflow",
+                side_kind_name[kind]);
     }
     if (inflow && !open)
         scene_error(scene, "domain", NULL, NULL, "an inflow side needs an outflow side");
@@ -99,11 +103,12 @@ void fluid_create(struct sim *s, struct scene *scene)
         for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
             *fields[i] = grid_field(g);
         const enum place place = a == 0 ? PLACE_FACE_X : a == 1 ? PLACE_FACE_Y : PLACE_FACE_Z;
-        fields_add(&s->fields, (struct field){names[a][0], "N m-3", "convection a step ago", place,
-                                              KIND_REAL, (void **)&ns->convection_old[a],
-                                              FIELD_STATE});
-        fields_add(&s->fields, (struct field){names[a][1], "N m-3", "div tau a step ago", place,
-                                              KIND_REAL, (void **)&ns->viscous_old[a], FIELD_STATE});
+        fields_add(&s->fields,
+                   (struct field){names[a][0], "N m-3", "convection a step ago", place,
+                                  KIND_REAL, (void **)&ns->convection_old[a], FIELD_STATE});
+        fields_add(&s->fields,
+                   (struct field){names[a][1], "N m-3", "div tau a step ago", place, KIND_REAL,
+                                  (void **)&ns->viscous_old[a], FIELD_STATE});
     }
     series_add(&s->series, "pressure_iterations", "1", "iterations of the pressure solve",
                &ns->iterations);
@@ -179,7 +184,9 @@ static void predict(struct sim *s, int a)
     struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
     const double rate = f->rho / f->dt;
-    const double drive = a == 0 ? s->flow.gradient.x : a == 1 ? s->flow.gradient.y : s->flow.gradient.z;
+    const double drive = a == 0   ? s->flow.gradient.x
+                         : a == 1 ? s->flow.gradient.y
+                                  : s->flow.gradient.z;
     const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
 #pragma omp parallel for schedule(static)
     for (int k = 1; k <= last[2]; k++)
@@ -193,7 +200,8 @@ static void predict(struct sim *s, int a)
                     continue;
                 const double push = ns->viscous[a][c] + drive - gradient(s, f->p, a, n, c);
                 f->u[a][c] = (rate * m_old * f->u[a][c] + ns->convection[a][c] + m * push +
-                              f->drag_s[a][c]) / A;
+                              f->drag_s[a][c]) /
+                             A;
             }
 }
 
@@ -209,12 +217,13 @@ static void correct(struct sim *s, int a)
             for (int i = 1; i <= last[0]; i++) {
                 const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
                 if (face_solved(s, a, n))
-                    f->u[a][c] -= ns->coefficient[a][c] / f->eps_f[a][c] *
-                                  gradient(s, ns->dp, a, n, c);
+                    f->u[a][c] -=
+                        ns->coefficient[a][c] / f->eps_f[a][c] * gradient(s, ns->dp, a, n, c);
             }
 }
 
-/* Scale of the right-hand side, for what round-off leaves: velocity over cell, over all cells. */
+/* Scale of the right-hand side, for what round-off leaves: velocity over cell, over all cells.
+ */
 static double round_off(const struct sim *s)
 {
     const struct grid *const g = &s->grid;
@@ -232,7 +241,8 @@ static void check_balance(const struct sim *s, double floor)
     const double lost = pressure_imbalance(ns->pressure, 0.0, ns->rhs);
     if (lost > 1e-6 && size > 1e3 * floor)
         die(EXIT_UNSTABLE,
-            "the fluid of the closed box has nowhere to go at t = %.9g s: its volume is asked to change "
+            "the fluid of the closed box has nowhere to go at t = %.9g s: its volume is asked "
+            "to change "
             "by %.3g of the flow",
             s->t, lost);
 }
@@ -257,7 +267,8 @@ static void project(struct sim *s)
     f->residual = r.start > 0.0 ? r.end / r.start : 0.0;
     if (!r.converged)
         die(EXIT_UNSTABLE,
-            "the pressure has not converged at t = %.9g s, step %ld: residual %.3g of its start "
+            "the pressure has not converged at t = %.9g s, step %ld: residual %.3g of its "
+            "start "
             "after %d iterations, fluid.tolerance is %g (smallest fluid fraction %.3g)",
             s->t, s->step, f->residual, r.iterations, ns->tolerance, s->coupling.eps_least);
     for (int a = 0; a < 3; a++)
@@ -267,13 +278,16 @@ static void project(struct sim *s)
     fluid_velocity_sides(s, s->t + f->dt);
 }
 
-/* G = -grad p + div tau + f where there is an equation; on an inflow face what balances its drag. */
+/* G = -grad p + div tau + f where there is an equation; on an inflow face what balances its
+ * drag. */
 static void stress(struct sim *s, int a)
 {
     struct fluid_work *const ns = s->fluid.work;
     struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
-    const double drive = a == 0 ? s->flow.gradient.x : a == 1 ? s->flow.gradient.y : s->flow.gradient.z;
+    const double drive = a == 0   ? s->flow.gradient.x
+                         : a == 1 ? s->flow.gradient.y
+                                  : s->flow.gradient.z;
     const double viscous = s->coupling.viscous ? 1.0 : 0.0;
     const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
 #pragma omp parallel for schedule(static)
@@ -282,13 +296,14 @@ static void stress(struct sim *s, int a)
             for (int i = 1; i <= last[0]; i++) {
                 const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
                 if (face_solved(s, a, n) || s->domain.periodic[a]) {
-                    f->stress[a][c] = drive - gradient(s, f->p, a, n, c) + viscous * ns->viscous[a][c];
+                    f->stress[a][c] =
+                        drive - gradient(s, f->p, a, n, c) + viscous * ns->viscous[a][c];
                 } else { /* a given velocity: 0 on a wall */
                     const int side = 2 * a + (n > 1);
                     const bool inflow = s->domain.side[side].kind == SIDE_INFLOW;
-                    f->stress[a][c] = inflow ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) /
-                                                   f->eps_f[a][c]
-                                             : 0.0;
+                    f->stress[a][c] =
+                        inflow ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / f->eps_f[a][c]
+                               : 0.0;
                 }
             }
 }

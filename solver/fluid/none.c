@@ -1,5 +1,5 @@
-/* solver/fluid/none.c - no fluid: a dry scene. Refers to nothing, so that its binary holds neither
- * the coupling nor FFTW. Also the template for new solvers. */
+/* solver/fluid/none.c - no fluid: a dry scene. Refers to nothing, so that its binary holds
+ * neither the coupling nor FFTW. Also the template for new solvers. */
 #include "fluid.h"
 
 #include "../feasibility.h"

@@ -1,0 +1,279 @@
+/* picture_bed.c - bed.png: the grains from the side, to scale, at the first and the last
+ * output, and beside them the porosity over height (the mean of each layer of cells) on the
+ * same axis of height. The viewer looks along y; the nearest grains are drawn last. Colour is
+ * speed, or the species where all is at rest. */
+#include "picture.h"
+
+#include <math.h>
+#include <netcdf.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_GRAINS = 20000, LEFT = 85, GAP = 60, TOP = 95, BOTTOM = 165, PROFILE = 300 };
+
+struct bed {
+    size_t n, times, shown[2];
+    int panels;
+    double size[3];         /* m, of the box */
+    double low[2], high[2]; /* m, range of x and z shown */
+    double *radius, *species, *time;
+    double *pos[2], *vel[2]; /* n x 3 */
+    double fastest; /* m/s, the 99th percentile: a few outliers do not rule the scale */
+    bool profile;
+    int x0, z0;     /* pixels: where the panels begin */
+    int across, up; /* pixels: size of a panel */
+};
+
+static double speed(const double *vel, size_t i)
+{
+    const double *const v = &vel[3 * i];
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double percentile_99(const double *vel, size_t n)
+{
+    double *const v = xalloc(n, sizeof *v);
+    for (size_t i = 0; i < n; i++)
+        v[i] = speed(vel, i);
+    qsort(v, n, sizeof *v, ascending);
+    const double out = v[(n - 1) - (n - 1) / 100];
+    xfree(v);
+    return out;
+}
+
+/* The part of the box that is shown: its empty top is not. */
+static void choose_range(struct bed *b, const int periodic[3])
+{
+    double top = 0.0, widest = 0.0;
+    for (size_t i = 0; i < b->n; i++) {
+        widest = fmax(widest, b->radius[i]);
+        for (int k = 0; k < b->panels; k++)
+            top = fmax(top, b->pos[k][3 * i + 2] + b->radius[i]);
+    }
+    const double edge =
+        periodic[0] ? widest : 0.0; /* grains may stick out of a periodic side */
+    b->low[0] = -edge;
+    b->high[0] = b->size[0] + edge;
+    b->low[1] = periodic[2] ? -widest : 0.0;
+    b->high[1] = b->size[2] - b->low[1];
+    if (b->n > 1)
+        b->high[1] = fmin(b->high[1], 1.15 * top);
+}
+
+/* Pixels: as large as fits, never lower than the profile can be read. */
+static void choose_pixels(struct bed *b)
+{
+    const double wide = b->high[0] - b->low[0];
+    const double scale =
+        fmin(640.0 / (b->high[1] - b->low[1]), (b->panels > 1 ? 520.0 : 800.0) / wide);
+    b->across = (int)(wide * scale);
+    b->up = (int)((b->high[1] - b->low[1]) * scale);
+    if (b->up < 300) {
+        b->up = 300;
+        b->high[1] = b->low[1] + 300.0 / scale;
+    }
+    b->x0 = LEFT;
+    if (b->across < 260) /* room for the title of the panel */
+        b->x0 += (260 - b->across) / 2;
+}
+
+static int panel_step(const struct bed *b)
+{
+    return (b->across < 260 ? 260 : b->across) + GAP;
+}
+
+static bool read_bed(const struct run_file *r, struct bed *b)
+{
+    int periodic[3];
+    size_t got[2] = {0, 0}, n = 0;
+    b->radius = run_all(r, "radius", &b->n);
+    b->time = run_all(r, "time", &b->times);
+    b->species = run_all(r, "grain_species", &n);
+    if (b->n == 0 || b->times == 0 || n != b->n || !b->radius || !b->time || !b->species ||
+        nc_get_att_double(r->nc, NC_GLOBAL, "domain_size", b->size) != NC_NOERR ||
+        nc_get_att_int(r->nc, NC_GLOBAL, "domain_periodic", periodic) != NC_NOERR)
+        return false;
+    b->shown[1] = b->times - 1;
+    b->panels = b->times > 1 ? 2 : 1;
+    for (int k = 0; k < b->panels; k++) {
+        b->pos[k] = run_record(r, "position", b->shown[k], &got[0]);
+        b->vel[k] = run_record(r, "velocity", b->shown[k], &got[1]);
+        if (!b->pos[k] || !b->vel[k] || got[0] != 3 * b->n || got[1] != 3 * b->n)
+            return false;
+        b->fastest = fmax(b->fastest, percentile_99(b->vel[k], b->n));
+    }
+    b->profile = run_variable(r, "fluid_fraction") >= 0 && run_length(r, "z") > 1;
+    choose_range(b, periodic);
+    choose_pixels(b);
+    return true;
+}
+
+struct depth {
+    double y;
+    size_t i;
+};
+
+static int farthest_first(const void *a, const void *b)
+{
+    const struct depth *const p = a, *const q = b;
+    return p->y < q->y ? 1 : p->y > q->y ? -1 : (p->i < q->i) - (p->i > q->i);
+}
+
+/* Discs: x, z, radius in mm; speed in mm/s or the species. */
+static void send_grains(FILE *to, const struct bed *b, int k)
+{
+    struct depth *const order = xalloc(b->n, sizeof *order);
+    for (size_t i = 0; i < b->n; i++)
+        order[i] = (struct depth){b->pos[k][3 * i + 1], i};
+    qsort(order, b->n, sizeof *order, farthest_first);
+    fprintf(to, "$g%d << END\n", k);
+    for (size_t m = b->n > MOST_GRAINS ? b->n - MOST_GRAINS : 0; m < b->n; m++) {
+        const size_t i = order[m].i;
+        const double *const x = &b->pos[k][3 * i];
+        const double at = b->low[0] < 0.0 ? x[0] - b->size[0] * floor(x[0] / b->size[0]) : x[0];
+        fprintf(to, "%.6g %.6g %.6g %.5g\n", 1e3 * at, 1e3 * x[2], 1e3 * b->radius[i],
+                b->fastest > 0.0 ? 1e3 * speed(b->vel[k], i) : b->species[i]);
+    }
+    fprintf(to, "END\n");
+    xfree(order);
+}
+
+/* Porosity over height: the mean over each layer, at height z in mm. */
+static void send_profile(const struct run_file *r, FILE *to, const struct bed *b, int k)
+{
+    size_t n = 0, layers = 0;
+    double *const eps = run_record(r, "fluid_fraction", b->shown[k], &n);
+    double *const z = run_all(r, "z", &layers);
+    const size_t layer = n / layers;
+    fprintf(to, "$p%d << END\n", k);
+    for (size_t l = 0; l < layers; l++)
+        fprintf(to, "%.8g %.8g\n", sum_blocks(&eps[l * layer], layer) / (double)layer,
+                1e3 * z[l]);
+    fprintf(to, "END\n");
+    xfree(eps);
+    xfree(z);
+}
+
+/* Margins of panel number k, `across` pixels wide. */
+static void set_margins(const struct picture *p, const struct bed *b, int from, int across)
+{
+    fprintf(p->gnuplot,
+            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\n"
+            "set tmargin at screen %g\n",
+            (double)from / p->width, (double)(from + across) / p->width,
+            (double)BOTTOM / p->height, (double)(BOTTOM + b->up) / p->height);
+}
+
+/* What the colours mean: a scale of speed, or the names of the species; below the first panel.
+ */
+static void set_colours(const struct run_file *r, const struct picture *p, const struct bed *b)
+{
+    FILE *const to = p->gnuplot;
+    if (b->fastest > 0.0) {
+        fprintf(
+            to,
+            "set palette defined (0 '#e2e9f0', 0.3 '#9cc3e0', 0.65 '#4288c4', 1 '#0c3a78')\n"
+            "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics scale 0.4\n"
+            "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
+            "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
+            1e3 * b->fastest, (double)LEFT / p->width, 62.0 / p->height, 260.0 / p->width,
+            14.0 / p->height, b->n >= 100 ? " (the fastest 1 % lie above the scale)" : "",
+            (LEFT + 275.0) / p->width, 69.0 / p->height);
+        return;
+    }
+    char *const names = run_text(r, run_variable(r, "grain_species"), "flag_meanings");
+    int k = 0;
+    fprintf(to, "unset colorbox\nset cbrange [0:%d]\nset palette maxcolors %d defined (",
+            PICTURE_COLOURS, PICTURE_COLOURS);
+    for (int c = 0; c < PICTURE_COLOURS; c++)
+        fprintf(to, "%s%d '%s', %d '%s'", c ? ", " : "", c, picture_colour[c], c + 1,
+                picture_colour[c]);
+    fprintf(to, ")\n");
+    for (char *name = strtok(names, " "); name && k < PICTURE_COLOURS;
+         name = strtok(NULL, " "), k++) {
+        char *const what = xprintf("label %d", 10 + k);
+        char *const where =
+            xprintf("at screen %g,%g left noenhanced point pt 7 ps 1.6 lc '%s' offset 1.2,0",
+                    (LEFT + 10.0 + 150.0 * k) / p->width, 62.0 / p->height, picture_colour[k]);
+        picture_text(to, what, name, where);
+        xfree(what);
+        xfree(where);
+    }
+    xfree(names);
+}
+
+static void draw_grains(const struct picture *p, const struct bed *b, int k)
+{
+    FILE *const to = p->gnuplot;
+    const double half = b->fastest > 0.0 ? 0.0 : 0.5; /* middle of a species' colour */
+    send_grains(to, b, k);
+    set_margins(p, b, b->x0 + k * panel_step(b), b->across);
+    fprintf(to,
+            "set title 't = %.4g s' font ',14'\nset xrange [%.8g:%.8g]\n"
+            "plot $g%d using 1:2:3:($4+%g) with circles lc palette lw 0.4\n"
+            "unset label\nunset colorbox\nset ylabel ''\n",
+            b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0], k, half);
+}
+
+static void draw_profile(const struct run_file *r, const struct picture *p, const struct bed *b)
+{
+    FILE *const to = p->gnuplot;
+    const int from = LEFT + b->panels * panel_step(b) + 20;
+    for (int k = 0; k < b->panels; k++)
+        send_profile(r, to, b, k);
+    set_margins(p, b, from, PROFILE);
+    fprintf(to,
+            "set title 'porosity over height' font ',14'\nset xlabel 'porosity'\n"
+            "set ylabel 'z, mm'\nset border 3\nset xrange [0:1.03]\nset xtics 0.2\n"
+            "set key at screen %g,%g center top maxrows 1\n",
+            (from + 0.5 * PROFILE) / p->width, 84.0 / p->height);
+    for (int k = 0; k < b->panels; k++)
+        fprintf(
+            to,
+            "%s $p%d using 1:2 with linespoints pt %d ps 0.8 lw 2 lc '%s' title 't = %.4g s'%s",
+            k ? "" : "plot", k, k ? 7 : 6, picture_colour[k], b->time[b->shown[k]],
+            k + 1 < b->panels ? "," : "\n");
+}
+
+static void draw(const struct run_file *r, const struct bed *b)
+{
+    const int width =
+        LEFT + b->panels * panel_step(b) + (b->profile ? 20 + PROFILE + 30 : -GAP + 30);
+    struct picture p =
+        picture_open(r, "bed.png", width < 520 ? 520 : width, TOP + b->up + BOTTOM);
+    FILE *const to = p.gnuplot;
+    char *const scene = picture_scene(r);
+    char *const head =
+        xprintf("%s: %zu grain%s, from the side", scene, b->n, b->n > 1 ? "s" : "");
+    fprintf(to, "set multiplot\n");
+    picture_text(to, "label 2", head, "at screen 0.5,0.965 center font ',16' noenhanced");
+    set_colours(r, &p, b);
+    fprintf(to,
+            "set xlabel 'x, mm'\nset ylabel 'z, mm'\nset yrange [%.8g:%.8g]\nset border 15\n"
+            "set style fill solid 1.0 border lc '#24364d'\nunset key\n",
+            1e3 * b->low[1], 1e3 * b->high[1]);
+    for (int k = 0; k < b->panels; k++)
+        draw_grains(&p, b, k);
+    if (b->profile)
+        draw_profile(r, &p, b);
+    fprintf(to, "unset multiplot\n");
+    picture_close(&p);
+    xfree(scene);
+    xfree(head);
+}
+
+void picture_bed(const struct run_file *r)
+{
+    struct bed b = {0};
+    if (read_bed(r, &b))
+        draw(r, &b);
+    void *const all[] = {b.radius, b.species, b.time, b.pos[0], b.pos[1], b.vel[0], b.vel[1]};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+}
