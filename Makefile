@@ -73,6 +73,10 @@ FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
 $(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
 
+$(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $< $(LIB) $(LIBS)
+
 # A test holds the whole library and one answer per slot: the first of each folder that its line
 # "slots: contact/linear fluid ..." names, or else none. It may load others (-Bsymbolic keeps each
 # to its own symbols).

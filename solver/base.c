@@ -12,6 +12,8 @@ void (*die_hook)(int code, const char *message);
 _Noreturn void die(int code, const char *format, ...)
 {
     static char message[2048]; /* the hook may run when memory is short */
+    static int first;          /* the cause, where the hook dies too */
+    first = first ? first : code;
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
@@ -22,7 +24,7 @@ _Noreturn void die(int code, const char *format, ...)
     die_hook = NULL; /* a hook that dies must not call itself */
     if (hook)
         hook(code, message);
-    exit(code);
+    exit(first);
 }
 
 void *xalloc(size_t count, size_t size)

@@ -177,7 +177,7 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
     fprintf(out,
             "grains %d, cells %.0f, sub-steps %d per step, steps %.0f, memory about %.3g MiB\n",
             s->grains.n, (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2], s->run.substeps,
-            ceil(s->run.end / (s->run.dt * s->run.substeps)), memory(s) / 1048576.0);
+            ceil(s->run.end / (s->run.dt * s->run.substeps) - 1e-9), memory(s) / 1048576.0);
 }
 
 void feasibility_enforce(const struct sim *s, struct scene *scene, const struct feasibility *f)

@@ -160,6 +160,7 @@ static int run(struct sim *s, struct scene *scene)
     /* sigaction, not signal: a second Ctrl-C must not end the run in the middle of an output */
     struct sigaction stop = {.sa_handler = on_signal};
     sigemptyset(&stop.sa_mask);
+    s->run.stop = &caught;
     sigaction(SIGINT, &stop, NULL);
     sigaction(SIGTERM, &stop, NULL);
     sim_start(s);

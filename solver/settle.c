@@ -32,7 +32,7 @@ void settle(struct sim *s)
     bool rests = moving == 0;
     long steps = 0;
     progress_start(&progress, 0.0, s->run.settle_time, "settling");
-    while (!rests) {
+    while (!rests && !(s->run.stop && *s->run.stop)) {
         for (int k = 0; k < BETWEEN; k++)
             step_grains(s);
         steps += BETWEEN;

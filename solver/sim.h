@@ -3,6 +3,7 @@
 #ifndef SIM_H
 #define SIM_H
 
+#include <signal.h>
 #include "coupling.h"
 #include "domain.h"
 #include "flow.h"
@@ -27,9 +28,10 @@ struct run {
     double speed;         /* m/s, highest expected; 0: estimated */
     bool force;           /* run in spite of broken limits */
     unsigned long seed;
-    char *directory;     /* of the outputs */
-    double output_every; /* s, fields and grains; INFINITY: first and last only */
-    double series_every; /* s */
+    char *directory;                   /* of the outputs */
+    double output_every;               /* s, fields and grains; INFINITY: first and last only */
+    double series_every;               /* s */
+    const volatile sig_atomic_t *stop; /* not zero: a signal asks the run to end; or NULL */
 };
 
 struct sim {

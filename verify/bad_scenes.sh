@@ -141,12 +141,19 @@ edit "unit cells that do not fit" 's/^fill     = random/fill = unit_cell\nspacin
 edit "several errors at once, first" 's/= 0.8/= 1.3/; s/1 mPa s/1 kg/' "$bad:21: material beads.restitution = 1.3"
 grep -q "$bad:25: fluid.viscosity = 1 kg" "$tmp/err"
 verdict $? "several errors at once, second"
+edit "reciprocal of the unit" 's/1 mPa s/1 1\/(mPa s)/' "$bad:25: fluid.viscosity = 1 1/\(mPa s\): .*has the wrong dimension"
+edit "hexadecimal" 's/^count    = 50/count = 0x32/' "$bad:17: grains beads.count = 0x32: must be one whole number"
+edit "poisson of another law" '/^friction/a poisson = 0.6' "$bad:23: material beads.poisson = 0.6: no such key"
+edit "two regions out of order" '/^count/a from = 0 0 15 mm\nto = 10 10 5 mm' "grains beads.to = 10 10 5 mm: the region must lie inside the box"
+edit "a bare carriage return" "s/^count    = 50/count = 50\rfrozen = yes/" "$bad:17: the file is not text"
+edit "a line without end" "s/^count    = 50/count = 5$(printf '0%.0s' {1..300})/" "$bad:17: .*the line is longer than 180 letters"
 with "override of an unknown key" "command line: fluid.densty = 1000: no such key \(did you mean fluid.density\?\)" fluid.densty=1000
 with "override out of range" "command line: material beads.restitution = 2: must lie in" "material beads.restitution=2"
 with "override without a key" "command line: fluid = 3: must read section.key=value|fluid=3" fluid=3
 with "another binary's scene" "command line: modules.drag = stokes: this binary was built with ergun" modules.drag=stokes
 
 whole "module that does not exist" "command line: modules.drag = erghun: must be one of .*did you mean ergun" "$tmp/good.ini" modules.drag=erghun
+whole "poisson out of range" "command line: material beads.poisson = 0.6: must lie in \(-1, 0.5\]" "$tmp/good.ini" modules.contact=hertz_mindlin "material beads.poisson=0.6" "material beads.young=5 MPa"
 whole "module by a path" "modules.drag = ../drag/ergun: must be one of" "$tmp/good.ini" modules.drag=../drag/ergun
 whole "slot that does not exist" "modules.drug = ergun: no such key \(did you mean modules.drag\?\)" "$tmp/good.ini" modules.drug=ergun
 whole "no such scene" "nosuch.ini: No such file" nosuch.ini
@@ -162,6 +169,9 @@ ln -s "$tmp/nowhere" "$tmp/dangling.ini"
 whole "unreadable file" "dangling.ini: No such file" "$tmp/dangling.ini"
 whole "no such option" "no such option: --fast" "$tmp/good.ini" --fast
 whole "two scenes" "one scene only" "$tmp/good.ini" scenes/bounce.ini
+whole "no such command" "chek: No such file, and no such command; there are check" chek
+whole "an option without its value" "-j needs a value" "$tmp/good.ini" -j ""
+whole "an override without its section" "command line: end=3: must read section.key=value" "$tmp/good.ini" end=3
 whole "threads that are none" "-j takes a number of threads" "$tmp/good.ini" -j many
 
 # What is good must stay good: CRLF, indentation, UTF-8 and a mark before it, inline comments.
@@ -172,5 +182,28 @@ touch "$tmp/file"
 "$binary" "$tmp/good.ini" -o "$tmp/file/out" > /dev/null 2> "$tmp/err"
 [ $? = 4 ]
 verdict $? "a folder that cannot be made is exit 4"
+
+# From elsewhere, by a path with a space, and stopped by signals: outputs complete, exit 128 + signal.
+mkdir -p "$tmp/a place"
+cp "$tmp/good.ini" "$tmp/a place/here.ini"
+(root=$PWD && cd "$tmp/a place" && "$root/run.sh" here.ini -o there -j 1) > /dev/null 2> "$tmp/err"
+[ $? = 0 ] && [ -s "$tmp/a place/there/run.nc" ] && [ -s "$tmp/a place/there/summary.txt" ]
+verdict $? "run.sh works from another folder"
+for signal in INT TERM; do
+    rm -rf "$tmp/long"
+    # a shell's & would let run.sh ignore INT, as the program's own & does not
+    (trap - INT && exec ./run.sh "$tmp/good.ini" "run.end=1000 s" "flow.hold=1000 s" -o "$tmp/long") \
+        > /dev/null 2> "$tmp/err" &
+    run=$!
+    for _ in $(seq 100); do
+        grep -q "^running" "$tmp/err" && break
+        sleep 0.1
+    done
+    kill -$signal $run
+    wait $run
+    [ $? = $((128 + $(kill -l $signal))) ] && [ -s "$tmp/long/summary.txt" ] &&
+        grep -q "stopped by a signal" "$tmp/err"
+    verdict $? "$signal to run.sh stops the program, outputs complete"
+done
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# bench/bench.sh - `make bench`: how fast this machine runs the contact loop and the direct pressure
+# solve, beside what its memory gives in the same minute. Levels, not exact figures: compare ratios.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+make -s build/release/front build/release/bench/kernels
+slots=$(build/release/front slots scenes/packed_bed.ini)
+make -s -j"$(nproc)" $slots silt
+binary=$(make -s $slots where)
+
+value() {
+    sed -n "s/^$2 = \([^ ]*\).*/\1/p" "$1/summary.txt"
+}
+
+# Dry part of the bed: grains settle (Hertz-Mindlin with history, friction, restitution), two rounds.
+bed() { # THREADS
+    "$binary" scenes/packed_bed.ini "run.end=1 ms" flow.steps=1 flow.velocity_end=same \
+        run.settle_energy=1e-6 -j "$1" -o "$tmp/bed" > /dev/null 2>&1
+    value "$tmp/bed" grain_steps_per_second
+}
+printf '%-8s %22s %12s\n' threads "grain-steps per second" "per thread"
+for round in 1 2; do
+    for j in 1 $(nproc); do
+        rate=$(bed "$j")
+        awk -v r="$rate" -v j="$j" 'BEGIN { printf "%-8d %20.2f M %10.2f M\n", j, r / 1e6, r / 1e6 / j }'
+    done
+done
+for j in 1 $(nproc); do
+    OMP_NUM_THREADS=$j build/release/bench/kernels
+done

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# verify/verify.sh - `make verify`: the verification cases at full size, their figures in one report,
+# build/verify.txt. Takes some minutes.
+#   the shipped scenes against their references
+#   a bed of uniform porosity: the drag law's pressure drop, two laws, two solvers
+#   one sphere, two-way: what it disturbs of its own cell, against cell/d and porosity answer
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 2
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+report=build/verify.txt
+mkdir -p build
+bad=0
+
+value() {
+    sed -n "s/^$2 = \([^ ]*\).*/\1/p" "$1/summary.txt"
+}
+
+{
+    echo "silt $(git describe --always --dirty 2> /dev/null), $(date -u +%F), $(uname -srm), $(nproc) cores"
+    echo
+    echo "Shipped scenes against their references"
+    for scene in scenes/*.ini; do
+        name=$(basename "$scene" .ini)
+        if ! ./run.sh "$scene" -o "$tmp/$name" > "$tmp/log" 2>&1; then
+            echo "  $name: FAIL, it does not run"
+            bad=1
+            continue
+        fi
+        grep -E '^(reference:|terminal velocity)' "$tmp/log" | sed "s/^/  $name: /"
+        grep -q '^verdict = pass' "$tmp/$name/summary.txt" || bad=1
+        echo "  $name: ledger $(value "$tmp/$name" ledger), wall time $(value "$tmp/$name" wall_time) s"
+    done
+    echo
+    echo "A bed of uniform porosity gives the drag law's pressure drop (1e-6)"
+    for t in ergun_navier_stokes ergun_darcy kozeny_carman_navier_stokes kozeny_carman_darcy; do
+        make -s build/release/verify/test_bed_$t
+        build/release/verify/test_bed_$t > "$tmp/log" || bad=1
+        echo "  $t: $(tail -n 1 "$tmp/log")"
+    done
+    echo
+    echo "One sphere falls, two-way: terminal velocity over the exact one, minus 1 (self-disturbance)"
+    echo "  d = 0.1 mm, Re = 0.19, Di Felice; box 3.2 x 3.2 x 6.4 mm, slip sides, open above"
+    printf '  %-10s' "cell/d"
+    for c in 1 2 4 8; do printf ' %9s' $c; done
+    echo
+    for porosity in centre divided none; do
+        printf '  %-10s' $porosity
+        for c in 1 2 4 8; do
+            n=$((32 / c))
+            if ./run.sh scenes/settling.ini modules.porosity=$porosity coupling.ways=two \
+                "domain.size=3.2 3.2 6.4 mm" "domain.cells=$n $n $((2 * n))" \
+                "grains bead.position=1.63 1.63 4.83 mm" "fluid.dt=50 us" \
+                -o "$tmp/sphere" > "$tmp/log" 2>&1; then
+                printf ' %+9.4f' "$(value "$tmp/sphere" velocity_error)"
+            else
+                printf ' %9s' stopped
+            fi
+        done
+        echo
+    done
+} 2>&1 | tee "$report"
+grep -q FAIL "$report" && bad=1
+exit $bad
