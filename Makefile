@@ -78,10 +78,10 @@ $(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB)
 	$(CC) $(LDFLAGS) -o $@ $< $(LIB) $(LIBS)
 
 # A test holds the whole library and one answer per slot: the first of each folder that its line
-# "slots: contact/linear fluid ..." names, or else none. It may load others (-Bsymbolic keeps each
+# "slots: contact/linear ..." names, or else none. It may load others (-Bsymbolic keeps each
 # to its own symbols).
 slots_of = $(shell for d in $(SLOT_DIRS); do a=$$d/none; [ $$d = shapes ] && a=$$d/sphere; \
-           for s in $$(sed -n 's/^ . slots: //p' verify/$(1).c); do \
+           for s in $$(sed -n 's|^/. slots: \(.*\) ./$$|\1|p' verify/$(1).c); do \
            [ "$${s%/*}" = $$d ] && a=$$s; done; echo $$a; done)
 .SECONDEXPANSION:
 $(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED) \

@@ -65,7 +65,8 @@ static double solve(int n, bool periodic)
 
 int main(void)
 {
-    printf("threads %d: triad %.1f GB/s; pressure solve, ns per cell: 64^3 walls %.1f, periodic %.1f; "
+    printf("threads %d: triad %.1f GB/s; pressure solve, ns per cell: 64^3 walls %.1f, "
+           "periodic %.1f; "
            "128^3 walls %.1f, periodic %.1f\n",
            omp_get_max_threads(), triad(), solve(64, false), solve(64, true), solve(128, false),
            solve(128, true));

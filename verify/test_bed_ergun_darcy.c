@@ -1,6 +1,5 @@
-/* verify/test_bed_ergun_darcy.c - a uniform bed, ergun, darcy: see uniform_bed.h.
- * slots: drag/ergun porosity/divided solver/fluid/darcy
- */
+/* verify/test_bed_ergun_darcy.c - a uniform bed, ergun, darcy: see uniform_bed.h. */
+/* slots: drag/ergun porosity/divided solver/fluid/darcy */
 #include "uniform_bed.h"
 
 static double law_gradient(double phi, double eps, double U)

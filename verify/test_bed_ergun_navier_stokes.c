@@ -1,6 +1,6 @@
 /* verify/test_bed_ergun_navier_stokes.c - a uniform bed, ergun, navier_stokes: see
- * uniform_bed.h. slots: drag/ergun porosity/divided solver/fluid/navier_stokes
- */
+ * uniform_bed.h. */
+/* slots: drag/ergun porosity/divided solver/fluid/navier_stokes */
 #include "uniform_bed.h"
 
 static double law_gradient(double phi, double eps, double U)

@@ -1,6 +1,6 @@
 /* verify/test_bed_kozeny_carman_darcy.c - a uniform bed, kozeny_carman, darcy: see
- * uniform_bed.h. slots: drag/kozeny_carman porosity/divided solver/fluid/darcy
- */
+ * uniform_bed.h. */
+/* slots: drag/kozeny_carman porosity/divided solver/fluid/darcy */
 #include "uniform_bed.h"
 
 static double law_gradient(double phi, double eps, double U)

@@ -1,6 +1,6 @@
 /* verify/test_bed_kozeny_carman_navier_stokes.c - a uniform bed, kozeny_carman, navier_stokes:
- * see uniform_bed.h. slots: drag/kozeny_carman porosity/divided solver/fluid/navier_stokes
- */
+ * see uniform_bed.h. */
+/* slots: drag/kozeny_carman porosity/divided solver/fluid/navier_stokes */
 #include "uniform_bed.h"
 
 static double law_gradient(double phi, double eps, double U)

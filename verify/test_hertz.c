@@ -1,7 +1,7 @@
 /* verify/test_hertz.c - Hertz-Mindlin in whole runs: restitution, overlap and duration of an
  * elastic impact against Hertz [ChungOoi11, tests 1 and 2], energy, momentum, oblique impacts
- * in the sliding range (test 4). slots: contact/hertz_mindlin
- */
+ * in the sliding range (test 4). */
+/* slots: contact/hertz_mindlin */
 #include "two_bodies.h"
 
 #define MATERIAL "young = 0.7e8 Pa\npoisson = 0.22\n"

@@ -1,7 +1,6 @@
 /* verify/test_linear.c - the linear law in whole runs: restitution, energy, momentum, oblique
- * impact against the closed form.
- * slots: contact/linear
- */
+ * impact against the closed form. */
+/* slots: contact/linear */
 #include "two_bodies.h"
 
 #define MATERIAL "stiffness = 2.3e5 N/m\n"

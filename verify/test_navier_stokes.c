@@ -1,7 +1,6 @@
 /* verify/test_navier_stokes.c - the fluid without grains against exact flows, its orders of
- * accuracy; with grains: continuity, still fluid, momentum, bits.
- * slots: drag/di_felice porosity/divided solver/fluid/navier_stokes contact/linear
- */
+ * accuracy; with grains: continuity, still fluid, momentum, bits. */
+/* slots: drag/di_felice porosity/divided solver/fluid/navier_stokes contact/linear */
 #include <omp.h>
 #include "check.h"
 #include "harness.h"

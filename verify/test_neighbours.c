@@ -1,7 +1,6 @@
 /* verify/test_neighbours.c - the pair list against brute force, over rebuilds, sorting,
- * periodic sides and two sizes of grains; bits on 1, 2, 3, 7 and 16 threads. slots:
- * contact/hertz_mindlin
- */
+ * periodic sides and two sizes of grains; bits on 1, 2, 3, 7 and 16 threads. */
+/* slots: contact/hertz_mindlin */
 #include <omp.h>
 #include "check.h"
 #include "harness.h"

@@ -1,8 +1,5 @@
 /* verify/test_output.c - what a run leaves on disk, read back: every value in run.nc must be
- * the one put in, at its place, with its unit; summary.txt and run.xmf must agree with it.
- * slots: shapes/sphere contact/none contact/rolling/none contact/bond/none
- * contact/cohesion/none drag/none porosity/none solver/fluid/none reference/none
- */
+ * the one put in, at its place, with its unit; summary.txt and run.xmf must agree with it. */
 #include <sys/stat.h>
 #include "made_run.h"
 

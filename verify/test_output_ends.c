@@ -1,8 +1,6 @@
 /* verify/test_output_ends.c - runs that end badly: a crash, a kill, a full disk, a folder that
  * cannot be made. They are children of this program, judged by their exit status and by what
- * they leave. slots: shapes/sphere contact/none contact/rolling/none contact/bond/none
- * contact/cohesion/none drag/none porosity/none solver/fluid/none reference/none
- */
+ * they leave. */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
