@@ -132,8 +132,8 @@ static void grid_lines(const struct sim *s, struct feasibility *f)
     const double cells = (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
     if (g->n == 0)
         return;
-    feasibility_add(f, "grain diameter over cell", "1", d / h, 1.0, false,
-                    "cells of 2 d and more give smooth porosities");
+    feasibility_add(f, "cell over grain diameter", "1", h / d, (double)INFINITY, false,
+                    "2 and more give smooth porosities");
     feasibility_add(f, "grains per cell", "1", g->n / cells, (double)INFINITY, false, "mean");
 }
 
@@ -165,6 +165,11 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
         char used[32], limit[32];
         snprintf(used, sizeof used, "%.4g %s", f->line[i].used, f->line[i].unit);
         snprintf(limit, sizeof limit, "%.4g %s", f->line[i].limit, f->line[i].unit);
+        if (isinf(f->line[i].limit)) {
+            fprintf(out, "%-40s %12s %12s %8s  %s\n", f->line[i].name, used, "-", "-",
+                    f->line[i].note);
+            continue;
+        }
         fprintf(out, "%-40s %12s %12s %8.3g  %s%s\n", f->line[i].name, used, limit, ratio,
                 f->line[i].binding && ratio > 1.0 ? "TOO LONG; " : "", f->line[i].note);
         if (f->line[i].binding && ratio > most) {
@@ -174,6 +179,14 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
     }
     if (worst >= 0)
         fprintf(out, "nearest limit: %s, at %.3g of it\n", f->line[worst].name, most);
+    if (s->grains.n > 0) {
+        const double *const size = s->domain.size;
+        double volume = 0.0;
+        for (int k = 0; k < s->grains.n; k++)
+            volume += s->grains.volume[k];
+        fprintf(out, "the grains fit: they fill %.3g %% of the box\n",
+                100.0 * volume / (size[0] * size[1] * size[2]));
+    }
     fprintf(out,
             "grains %d, cells %.0f, sub-steps %d per step, steps %.0f, memory about %.3g MiB\n",
             s->grains.n, (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2], s->run.substeps,

@@ -1,6 +1,8 @@
 /* grid.c - the regular grid: its strides, its fields, their ghosts. */
 #include "grid.h"
 
+#include <omp.h>
+
 void grid_create(struct grid *g, const struct domain *d)
 {
     g->volume = 1.0;
@@ -41,4 +43,26 @@ void grid_ghosts(const struct grid *g, const struct domain *d, double *field)
         copy_layer(g, field, a, 0, d->periodic[a] ? g->n[a] : 1);
         copy_layer(g, field, a, g->n[a] + 1, d->periodic[a] ? 1 : g->n[a]);
     }
+}
+
+void grid_face_mean(const struct grid *g, const struct domain *dom, const double *cells, int a,
+                    double *faces)
+{
+    const int step = g->s[a], b = (a + 1) % 3, d = (a + 2) % 3;
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k <= g->n[d] + 1; k++)
+        for (int j = 0; j <= g->n[b] + 1; j++) {
+            const int at = j * g->s[b] + k * g->s[d];
+            for (int i = 1; i <= g->n[a] + 1; i++)
+                faces[at + i * step] =
+                    0.5 * (cells[at + i * step] + cells[at + (i - 1) * step]);
+            faces[at] = faces[at + (dom->periodic[a] ? g->n[a] : 1) * step];
+        }
+}
+
+void grid_slab(const struct grid *g, int *lo, int *hi)
+{
+    const int threads = omp_get_num_threads(), me = omp_get_thread_num(), layers = g->n[2] + 2;
+    *lo = g->sk * (int)((long)layers * me / threads);
+    *hi = g->sk * (int)((long)layers * (me + 1) / threads);
 }

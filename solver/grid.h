@@ -35,4 +35,12 @@ double *grid_field(const struct grid *g);                 /* zeroed; free with x
  * value (zero gradient). Edges and corners too. */
 void grid_ghosts(const struct grid *g, const struct domain *d, double *field);
 
+/* Means of the two cells beside each face of direction a, ghosts of the others included; the ghosts
+ * of `cells` must be filled. Beyond the first face a periodic copy, or the first face again. */
+void grid_face_mean(const struct grid *g, const struct domain *dom, const double *cells, int a,
+                    double *faces);
+
+/* The entries [lo, hi) of a field that this thread of a team owns: whole layers. */
+void grid_slab(const struct grid *g, int *lo, int *hi);
+
 #endif

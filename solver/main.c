@@ -10,6 +10,7 @@
 #include "../reference/reference.h"
 #include "feasibility.h"
 #include "fill.h"
+#include "log.h"
 #include "output.h"
 #include "progress.h"
 #include "settle.h"
@@ -155,6 +156,7 @@ static int run(struct sim *s, struct scene *scene)
 {
     const double begin = wall_clock();
     output_create(s, scene);
+    log_start(stdout, s);
     running = s;
     die_hook = last_words;
     /* sigaction, not signal: a second Ctrl-C must not end the run in the middle of an output */

@@ -11,8 +11,9 @@
 static void show(const struct progress *p, double now, double part, double elapsed)
 {
     const double left = part > 0.0 ? elapsed * (1.0 - part) / part : 0.0;
-    fprintf(stderr, "%s%s %3.0f %%  t = %.4g s  %.3g M grain and cell steps/s  %.0f s left%s",
-            p->terminal ? "\r" : "", p->what, 100.0 * part, now,
+    fprintf(stderr,
+            "%s%s %3.0f %%  at %.4g of %.4g  %.3g M grain and cell steps/s  %.0f s left%s",
+            p->terminal ? "\r" : "", p->what, 100.0 * part, now, p->end,
             elapsed > 0.0 ? 1e-6 * p->work / elapsed : 0.0, left,
             p->terminal ? CLEAR_TO_END : "\n");
     fflush(stderr);

@@ -15,6 +15,7 @@ struct progress {
 };
 
 void progress_start(struct progress *p, double begin, double end, const char *what);
+/* `now` is a time, or, where the end is not known beforehand, any measure between begin and end. */
 void progress_update(struct progress *p, double now, double work);
 void progress_end(struct progress *p);
 

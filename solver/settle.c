@@ -22,16 +22,22 @@ static double agitation(const struct sim *s)
     return scale > 0.0 ? kinetic / scale : 0.0;
 }
 
+/* How far a bed has come to rest, 0 to 1: its energy falls by the same factor in equal times. */
+static double calmed(double left, double most, double target)
+{
+    return left > target && most > target ? log(most / left) / log(most / target) : 0.0;
+}
+
 void settle(struct sim *s)
 {
     const long most = (long)ceil(s->run.settle_time / s->run.dt);
     const int moving = s->grains.n - s->grains.n_frozen;
     const double begin = wall_clock();
     struct progress progress;
-    double left = agitation(s);
+    double left = agitation(s), most_left = left;
     bool rests = moving == 0;
     long steps = 0;
-    progress_start(&progress, 0.0, s->run.settle_time, "settling");
+    progress_start(&progress, 0.0, 1.0, "settling");
     while (!rests && !(s->run.stop && *s->run.stop)) {
         for (int k = 0; k < BETWEEN; k++)
             step_grains(s);
@@ -46,7 +52,9 @@ void settle(struct sim *s)
                 "of m g "
                 "d per grain, run.settle_energy is %g",
                 s->run.settle_time, left, s->run.settle_energy);
-        progress_update(&progress, s->t, (double)moving * BETWEEN);
+        most_left = fmax(most_left, left);
+        progress_update(&progress, calmed(left, most_left, s->run.settle_energy),
+                        (double)moving * BETWEEN);
     }
     progress_end(&progress);
     summary_number(&s->summary, "settling_time", s->t, "s");
