@@ -31,7 +31,7 @@ void contact_forces(struct touch *t, double (*history)[TOUCH]);
  * feasibility report and dt = auto. */
 double contact_duration(int a, int b, double m_eff, double r_eff, double v);
 
-/* s; Rayleigh's time step for a grain [LiThorntonAdams05]; INFINITY if the law has no elastic
+/* s; Rayleigh's time step for a grain [LiXuThornton05]; INFINITY if the law has no elastic
  * moduli. */
 double contact_rayleigh(int a, double radius, double density);
 

@@ -122,7 +122,7 @@ double contact_duration(int a, int b, double m_eff, double r_eff, double v)
     return 2.87 * pow(m_eff * m_eff / (r_eff * e * e * v), 0.2);
 }
 
-/* [LiThorntonAdams05]: pi r sqrt(rho/G)/(0.1631 nu + 0.8766) */
+/* [LiXuThornton05]: pi r sqrt(rho/G)/(0.1631 nu + 0.8766) */
 double contact_rayleigh(int a, double radius, double density)
 {
     const double shear = young[a] / (2.0 * (1.0 + poisson[a]));
