@@ -42,6 +42,7 @@ struct contact_work {
     int *count;
     int runs;
     struct report *report;
+    int worst; /* slot of the largest overlap */
 };
 
 /* One block in the making. */
@@ -322,7 +323,7 @@ static void half_impulses(struct sim *s)
 static void collect(struct sim *s)
 {
     struct contact_work *const w = s->contacts;
-    int worst = -1;
+    half_impulses(s);
     s->overlap = s->elastic = 0.0;
     s->neighbours.touching = 0;
     s->walls.skeleton_force = v3(0.0, 0.0, 0.0);
@@ -334,25 +335,33 @@ static void collect(struct sim *s)
         s->neighbours.touching += r->touching;
         if (r->overlap > s->overlap) {
             s->overlap = r->overlap;
-            worst = r->worst;
+            w->worst = r->worst;
         }
         for (int k = 0; k < s->walls.n; k++)
             s->walls.wall[k].force = v3_add(s->walls.wall[k].force, r->wall_force[k]);
         s->walls.skeleton_force = v3_add(s->walls.skeleton_force, r->skeleton_force);
     }
+    half_impulses(s);
+}
+
+void contact_prepare(struct sim *s)
+{
+    make_room(s);
+}
+
+void contact_guard(const struct sim *s)
+{
     if (s->overlap > s->run.overlap_max)
-        die_overlap(s, worst, s->overlap);
+        die_overlap(s, s->contacts->worst, s->overlap);
 }
 
 void contact_loop(struct sim *s)
 {
-    make_room(s);
-    half_impulses(s);
-#pragma omp parallel for schedule(static)
+#pragma omp for schedule(static)
     for (int run = 0; run < s->contacts->runs; run++)
         work_run(s, run);
+#pragma omp master
     collect(s);
-    half_impulses(s);
 }
 
 void contact_gather(struct sim *s)
@@ -361,7 +370,7 @@ void contact_gather(struct sim *s)
     const struct neighbours *const nb = &s->neighbours;
     const struct contact_work *const w = s->contacts;
     const struct record *const record = w->record;
-#pragma omp parallel for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int i = 0; i < g->n; i++) {
         vec3 force = g->load[i], torque = g->load_torque[i];
         for (int k = w->records[i]; k < w->records[i] + w->count[i]; k++) {

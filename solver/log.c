@@ -22,8 +22,8 @@ static void log_grains(FILE *out, const struct sim *s)
     const struct grains *const g = &s->grains;
     for (int k = 0; k < g->n_species; k++) {
         const struct species *const sp = &g->species[k];
-        fprintf(out, "  grains    %d %s of %g m, %g kg/m3, material %s%s\n", sp->count, sp->name,
-                sp->diameter, sp->density, g->materials[sp->material].name,
+        fprintf(out, "  grains    %d %s of %g m, %g kg/m3, material %s%s\n", sp->count,
+                sp->name, sp->diameter, sp->density, g->materials[sp->material].name,
                 sp->frozen ? ", frozen" : "");
     }
 }
@@ -32,15 +32,16 @@ static void log_forces(FILE *out, const struct sim *s)
 {
     const struct coupling *const c = &s->coupling;
     const char *const word[2] = {"off", "on"};
-    fprintf(out,
-            "  fluid     %d x %d x %d cells, %g kg/m3, %g Pa s, step %g s = %d steps of the "
-            "grains\n"
-            "  coupling  %s; forces on grains: drag %s, pressure gradient %s, viscous stress %s, "
-            "buoyancy %s\n",
-            s->grid.n[0], s->grid.n[1], s->grid.n[2], s->fluid.rho, s->fluid.mu, s->fluid.dt,
-            s->run.substeps, c->ways == 2 ? "two-way" : "one-way",
-            c->implicit ? "implicit" : "explicit", word[c->pressure_gradient], word[c->viscous],
-            word[c->buoyancy]);
+    fprintf(
+        out,
+        "  fluid     %d x %d x %d cells, %g kg/m3, %g Pa s, step %g s = %d steps of the "
+        "grains\n"
+        "  coupling  %s; forces on grains: drag %s, pressure gradient %s, viscous stress %s, "
+        "buoyancy %s\n",
+        s->grid.n[0], s->grid.n[1], s->grid.n[2], s->fluid.rho, s->fluid.mu, s->fluid.dt,
+        s->run.substeps, c->ways == 2 ? "two-way" : "one-way",
+        c->implicit ? "implicit" : "explicit", word[c->pressure_gradient], word[c->viscous],
+        word[c->buoyancy]);
 }
 
 void log_start(FILE *out, const struct sim *s)

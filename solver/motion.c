@@ -36,8 +36,7 @@ void motion_kick_drift(struct sim *s)
     const double dt = s->run.dt, half = 0.5 * dt;
     const vec3 *const built = s->neighbours.pos_built;
     double farthest = 0.0;
-    bool lost = false;
-#pragma omp parallel for schedule(static) reduction(max : farthest) reduction(|| : lost)
+#pragma omp for schedule(static) nowait
     for (int i = 0; i < g->n; i++) {
         if (g->inv_mass[i] == 0.0)
             continue;
@@ -48,20 +47,23 @@ void motion_kick_drift(struct sim *s)
         g->pos[i] = v3_axpy(g->pos[i], dt, g->vel[i]);
         const vec3 moved = v3_sub(g->pos[i], built[i]);
         const double square = v3_dot(moved, moved);
-        lost = lost || !(square < 1e300);
-        farthest = square > farthest ? square : farthest;
+        farthest = square <= farthest ? farthest : square; /* not a number counts as far */
     }
-    if (lost)
+    neighbours_moved(s, sqrt(farthest));
+#pragma omp barrier
+}
+
+void motion_guard(const struct sim *s)
+{
+    if (!isfinite(s->neighbours.moved) && s->neighbours.builds > 0)
         die_lost(s);
-    if (!isinf(s->neighbours.moved))
-        s->neighbours.moved = sqrt(farthest);
 }
 
 void motion_kick(struct sim *s)
 {
     struct grains *const g = &s->grains;
     const double half = 0.5 * s->run.dt;
-#pragma omp parallel for schedule(static)
+#pragma omp for schedule(static) nowait
     for (int i = 0; i < g->n; i++) {
         if (g->inv_mass[i] == 0.0)
             continue;

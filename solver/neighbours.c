@@ -29,7 +29,7 @@ void neighbours_create(struct sim *s)
     nb->begin = xalloc(n + 1, sizeof *nb->begin);
     nb->begin_in = xalloc(n + 1, sizeof *nb->begin_in);
     nb->pos_built = xalloc(n, sizeof *nb->pos_built);
-    nb->moved = (double)INFINITY; /* the first refresh builds */
+    nb->moved = (double)INFINITY; /* stale from the start */
 }
 
 void neighbours_free(struct sim *s)
@@ -264,11 +264,21 @@ static void make_slots(struct sim *s, const struct search *c, const int *order)
     xfree(old.history);
 }
 
-void neighbours_refresh(struct sim *s)
+void neighbours_moved(struct sim *s, double moved)
+{
+#pragma omp critical(neighbours_moved)
+    if (!(moved <= s->neighbours.moved)) /* the largest; not a number stays */
+        s->neighbours.moved = moved;
+}
+
+bool neighbours_stale(const struct sim *s)
+{
+    return !(s->neighbours.moved <= 0.5 * s->neighbours.skin);
+}
+
+void neighbours_rebuild(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
-    if (s->grains.n == 0 || nb->moved <= 0.5 * nb->skin)
-        return;
     struct search c;
     nb->skin = choose_skin(s);
     search_open(&c, s);

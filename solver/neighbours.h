@@ -31,6 +31,10 @@ struct neighbours {
 
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
-void neighbours_refresh(struct sim *s); /* rebuilds if needed */
+
+/* A thread reports the largest displacement among its grains, m. */
+void neighbours_moved(struct sim *s, double moved);
+bool neighbours_stale(const struct sim *s);
+void neighbours_rebuild(struct sim *s); /* sorts the grains, makes the list anew */
 
 #endif

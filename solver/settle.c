@@ -39,8 +39,7 @@ void settle(struct sim *s)
     long steps = 0;
     progress_start(&progress, 0.0, 1.0, "settling");
     while (!rests && !(s->run.stop && *s->run.stop)) {
-        for (int k = 0; k < BETWEEN; k++)
-            step_grains(s);
+        step_grains(s, BETWEEN);
         steps += BETWEEN;
         s->t = (double)steps * s->run.dt;
         left = agitation(s);

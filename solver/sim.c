@@ -37,9 +37,14 @@ void sim_start(struct sim *s)
     memcpy(s->grains.vel_full, s->grains.vel, (size_t)s->grains.n * sizeof(vec3));
     if (s->grains.n == s->grains.n_frozen)
         return;
-    neighbours_refresh(s);
-    contact_loop(s);
-    contact_gather(s);
+    neighbours_rebuild(s);
+    contact_prepare(s);
+#pragma omp parallel
+    {
+        contact_loop(s);
+        contact_gather(s);
+    }
+    contact_guard(s);
 }
 
 void sim_free(struct sim *s)

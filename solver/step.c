@@ -1,25 +1,67 @@
 /* step.c - one coupled step: the program on a page. */
 #include "step.h"
 
+#include <omp.h>
 #include "contact_loop.h"
 #include "motion.h"
 #include "sim.h"
 
-void step_grains(struct sim *s)
+/* The master's clock; the other threads' time is beside it. */
+static double lap(struct timers *t, enum timer which, double since)
+{
+    return omp_get_thread_num() == 0 ? timer_add(t, which, since) : since;
+}
+
+/* Steps of one team of threads, until n are done or the pair list is stale (with the grains
+ * drifted already); returns how many are done. The threads meet twice a step: after the drift,
+ * and before records of contacts are gathered. */
+static int team_steps(struct sim *s, int n, bool drifted)
 {
     struct timers *const t = &s->timers;
     double clock = wall_clock();
-    motion_kick_drift(s);
-    clock = timer_add(t, TIME_MOTION, clock);
-    neighbours_refresh(s);
-    clock = timer_add(t, TIME_NEIGHBOURS, clock);
-    contact_loop(s); /* shapes -> contact (+ cohesion, rolling, bond) -> one record each */
-    clock = timer_add(t, TIME_CONTACTS, clock);
-    contact_gather(s);
-    clock = timer_add(t, TIME_GATHER, clock);
-    motion_kick(s);
-    timer_add(t, TIME_MOTION, clock);
-    s->substep++;
+    int done = 0;
+    while (done < n) {
+        if (!drifted) {
+            motion_kick_drift(s);
+            clock = lap(t, TIME_MOTION, clock);
+            if (neighbours_stale(s) || s->overlap > s->run.overlap_max)
+                break;
+        }
+        drifted = false;
+        contact_loop(s); /* shapes -> contact (+ cohesion, rolling, bond) -> one record each */
+        clock = lap(t, TIME_CONTACTS, clock);
+        contact_gather(s);
+        clock = lap(t, TIME_GATHER, clock);
+        motion_kick(s);
+        clock = lap(t, TIME_MOTION, clock);
+        done++;
+    }
+    return done;
+}
+
+void step_grains(struct sim *s, int n)
+{
+    bool drifted = false;
+    for (int left = n; left > 0;) {
+        int done = 0;
+#pragma omp parallel
+        {
+            const int mine = team_steps(s, left, drifted);
+#pragma omp master
+            done = mine;
+        }
+        contact_guard(s);
+        motion_guard(s);
+        left -= done;
+        s->substep += done;
+        drifted = left > 0; /* the team stopped for a new list */
+        if (drifted) {
+            const double clock = wall_clock();
+            neighbours_rebuild(s);
+            contact_prepare(s);
+            timer_add(&s->timers, TIME_NEIGHBOURS, clock);
+        }
+    }
 }
 
 void step(struct sim *s)
@@ -36,8 +78,7 @@ void step(struct sim *s)
         timer_add(t, TIME_LOAD, clock);
     }
     if (s->grains.n > s->grains.n_frozen)
-        for (int m = 0; m < s->run.substeps; m++)
-            step_grains(s);
+        step_grains(s, s->run.substeps);
     s->step++;
     s->t = s->run.dt * s->run.substeps * (double)s->step;
     clock = wall_clock();

@@ -7,7 +7,7 @@ struct sim;
 /* Entry and exit: positions, velocities, forces and fields all at time s->t. */
 void step(struct sim *s);
 
-/* One step of the grains, of length run.dt. */
-void step_grains(struct sim *s);
+/* n steps of the grains, of length run.dt each. */
+void step_grains(struct sim *s, int n);
 
 #endif
