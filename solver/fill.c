@@ -330,6 +330,27 @@ static void fill_species(struct sim *s, struct scene *scene, const char *name, i
     }
 }
 
+/* A grain that moves must not start inside a wall of the box. */
+static void check_walls(const struct sim *s, struct scene *scene, const struct bed *b,
+                        const char *const *names)
+{
+    for (int i = 0; i < b->n; i++) {
+        const struct placed *const p = &b->grain[i];
+        const double x[3] = {p->pos.x, p->pos.y, p->pos.z};
+        for (int a = 0; a < 3 && !s->grains.species[p->species].frozen; a++) {
+            const double room = fmin(x[a], s->domain.size[a] - x[a]),
+                         radius = 0.5 * p->diameter;
+            if (s->domain.periodic[a] || room >= (1.0 - s->run.overlap_max) * radius)
+                continue;
+            scene_error(
+                scene, "grains", names[p->species], "fill",
+                "places a grain at %.6g %.6g %.6g m, of radius %g m, inside a wall in %c", x[0],
+                x[1], x[2], radius, 'x' + a);
+            return;
+        }
+    }
+}
+
 int fill(struct sim *s, struct scene *scene, struct placed **out)
 {
     double largest = 0.0;
@@ -346,6 +367,7 @@ int fill(struct sim *s, struct scene *scene, struct placed **out)
     for (int i = 0; i < s->grains.n_species; i++)
         fill_species(s, scene, names[i], i, &b, rng);
     gsl_rng_free(rng);
+    check_walls(s, scene, &b, names);
     xfree(b.first);
     xfree(b.next);
     *out = b.grain;

@@ -14,6 +14,7 @@
 #include "log.h"
 #include "output.h"
 #include "progress.h"
+#include "provenance_info.h"
 #include "settle.h"
 #include "sim.h"
 #include "step.h"
@@ -112,6 +113,11 @@ static void summarise(struct sim *s, double begin)
                    s->grains.n > 0 ? (double)s->neighbours.touching / s->grains.n : 0.0, "1");
     summary_number(&s->summary, "wall_time", wall, "s");
     summary_number(&s->summary, "threads", omp_get_max_threads(), "1");
+    struct provenance line[PROVENANCE_LINES];
+    const int lines = provenance(line);
+    for (int i = 0; i < lines; i++)
+        if (strcmp(line[i].key, "threads") != 0)
+            summary_text(&s->summary, line[i].key, "%s", line[i].value);
     printf("where the time went:");
     for (int t = 0; t < TIMERS; t++)
         if (s->timers.seconds[t] > 0.005 * busy)
