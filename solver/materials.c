@@ -25,7 +25,10 @@ void materials_pair_values(struct scene *s, const struct materials *m, const cha
         for (int b = a; b < m->n; b++) {
             bool given;
             double value = pair_value(s, m->name[a], m->name[b], key, &given);
-            if (!given) {
+            if (given) { /* what the pair overrides is in use all the same */
+                scene_given(s, "material", m->name[a], key);
+                scene_given(s, "material", m->name[b], key);
+            } else {
                 const double of_a = scene_real(s, "material", m->name[a], key);
                 const double of_b = scene_real(s, "material", m->name[b], key);
                 value = mix == MIX_SERIES ? of_a * of_b / (of_a + of_b)

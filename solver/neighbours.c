@@ -6,6 +6,7 @@
 #include "neighbours.h"
 
 #include <string.h>
+#include "../contact/contact.h"
 #include "contact_loop.h"
 #include "sim.h"
 
@@ -19,6 +20,24 @@ struct search {
     double edge[3];
     int *begin; /* cells + 1: grains are sorted by cell */
 };
+
+void neighbours_check(const struct sim *s, struct scene *scene)
+{
+    const struct grains *const g = &s->grains;
+    double widest = 0.0;
+    for (int i = 0; i < g->n; i++)
+        widest = fmax(widest, 2.0 * g->radius[i]);
+    if (g->n == g->n_frozen || !isfinite(contact_duration(0, 0, 1.0, 1.0, 1.0)))
+        return; /* nothing touches */
+    const double least = g->n > 1 ? 2.0 * (widest + contact_reach()) : widest;
+    for (int a = 0; a < 3; a++)
+        if (s->domain.periodic[a] && s->domain.size[a] < least)
+            scene_error(
+                scene, "domain", NULL, "size",
+                "must be %g m at least in periodic %c, two of the widest grains: narrower, "
+                "a grain would touch another's image on both sides",
+                least, 'x' + a);
+}
 
 void neighbours_create(struct sim *s)
 {

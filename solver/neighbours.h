@@ -10,6 +10,7 @@
 #include "domain.h"
 
 struct sim;
+struct scene;
 
 struct neighbours {
     double skin;  /* m */
@@ -29,6 +30,8 @@ struct neighbours {
     long touching; /* contacts at the last step */
 };
 
+/* A periodic direction must have room for a pair and its images: else an error of the scene. */
+void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 

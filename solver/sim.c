@@ -26,6 +26,7 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     run_steps(s, scene);
     reference_create(s, scene);
     if (scene_errors(scene) == 0) {
+        neighbours_check(s, scene);
         feasibility_fill(s, f);
         feasibility_enforce(s, scene, f);
     }

@@ -138,6 +138,7 @@ edit "bed file missing" 's/^fill     = random/fill = file\nfile = nosuch.txt/; /
 printf 'x y z d\n' > "$tmp/bed.txt"
 edit "bed file that is no bed" "s/^fill     = random/fill = file\nfile = bed.txt/; /^count/d" "bed.txt:1: must hold x y z diameter"
 edit "unit cells that do not fit" 's/^fill     = random/fill = unit_cell\nspacing = 3 mm/; /^count/d' "grains beads.spacing = 3 mm: the region holds 3.33333 unit cells"
+edit "periodic box of one grain" 's/10 10 20 mm/1.7 10 20 mm/; s/^count    = 50/count = 5/' "$bad:8: domain.size = 1.7 10 20 mm: must be 0.002 m at least in periodic x"
 edit "grains inside a wall" 's/^fill     = random/fill = unit_cell\ncell = bcc\nspacing = 2.5 mm/; /^count/d; s/diameter = 1 mm/diameter = 1.5 mm/' "grains beads.fill = unit_cell: places a grain at .* inside a wall in z"
 edit "several errors at once, first" 's/= 0.8/= 1.3/; s/1 mPa s/1 kg/' "$bad:21: material beads.restitution = 1.3"
 grep -q "$bad:25: fluid.viscosity = 1 kg" "$tmp/err"
