@@ -81,7 +81,7 @@ void contact_forces(struct touch *t, double (*history)[TOUCH])
         const double a = sqrt(t->r_eff[c] * depth), m = t->m_eff[c];
         const double hertz = 4.0 / 3.0 * e_star[p] * a * depth;
         const double kt = 8.0 * g_star[p] * a;
-        const double damping = tsuji * zeta[p];
+        const double damping = tsuji * zeta[p] * t->start[c];
         const double normal = hertz - damping * sqrt(2.0 * e_star[p] * a * m) * t->vn[c];
         const double fn = normal > 0.0 ? normal : 0.0;
         /* the force of the spring: scaled down in unloading, turned, stretched */

@@ -68,7 +68,7 @@ void contact_forces(struct touch *t, double (*history)[TOUCH])
         const int p = t->pair[c];
         const double nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
         const double depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const double damping = 2.0 * zeta[p] * sqrt(t->m_eff[c]);
+        const double damping = 2.0 * zeta[p] * sqrt(t->m_eff[c]) * t->start[c];
         const double normal = k_n[p] * depth - damping * sqrt(k_n[p]) * t->vn[c];
         const double push = normal > 0.0 ? normal : 0.0;
         const double fn = depth > 0.0 ? push : 0.0;

@@ -27,7 +27,9 @@ struct touch {
     double r_i[TOUCH], r_j[TOUCH];          /* m; r_j = 0 for a plane */
     double nx[TOUCH], ny[TOUCH], nz[TOUCH]; /* unit normal */
     double vx[TOUCH], vy[TOUCH], vz[TOUCH]; /* m/s, at the half step: what moves springs */
-    double vn[TOUCH]; /* m/s, normal (> 0: separating), at the full step: for dashpots */
+    double vn[TOUCH];    /* m/s, normal (> 0: separating), at the full step: for dashpots */
+    double start[TOUCH]; /* factor of dashpots: 1; at the first step of a contact, which began
+                                within it, the part of the step that it was on (0.5 to 1.5) */
     double wx[TOUCH], wy[TOUCH], wz[TOUCH]; /* rad/s, spin of i minus spin of j, half step */
     /* to be filled: contact_forces sets, the others add */
     double fx[TOUCH], fy[TOUCH], fz[TOUCH]; /* N, on i */

@@ -144,6 +144,15 @@ static void load_motion(const struct sim *s, struct block *b)
     }
 }
 
+/* The force of a step stands for half a step before and after it. A contact that began within the
+ * step was on for depth/|v_n| before: the part of a whole step that its dashpot acts for. Without
+ * this the restitution is first order in the step. */
+static double first_part(const struct touch *t, int c)
+{
+    const double since = t->vn[c] < 0.0 ? t->depth[c] / (-t->vn[c] * t->dt) : 0.5;
+    return fmin(fmax(since, 0.0), 1.0) + 0.5;
+}
+
 static void load_history(const struct neighbours *nb, struct block *b)
 {
     for (int c = 0; c < b->t.n; c++) {
@@ -152,6 +161,7 @@ static void load_history(const struct neighbours *nb, struct block *b)
         const double keep = nb->live[slot] ? 1.0 : 0.0;
         for (int k = 0; k < nb->rows; k++)
             b->history[k][c] = keep != 0.0 ? h[k] : 0.0;
+        b->t.start[c] = keep != 0.0 ? 1.0 : first_part(&b->t, c);
     }
 }
 

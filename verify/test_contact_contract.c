@@ -64,6 +64,7 @@ static void put(struct touch *t, int c, double depth, vec3 n, vec3 v)
     t->vy[c] = v.y;
     t->vz[c] = v.z;
     t->vn[c] = v3_dot(n, v);
+    t->start[c] = 1.0;
     t->wx[c] = t->wy[c] = t->wz[c] = 0.0;
 }
 

@@ -78,7 +78,7 @@ static void check_sliding(double angle)
 
 int main(void)
 {
-    check_restitution(MATERIAL, 1e-7);
+    check_restitution(MATERIAL, 5e-7);
     check_hertz("glass", 4.8e10, 0.20, 2800.0, 0.0002741127, 4.0339453e-05);
     check_hertz("limestone", 2e10, 0.25, 2500.0, 0.00036830403, 5.4201002e-05);
     check_energy(MATERIAL, 2.5e-6);

@@ -35,7 +35,7 @@ static void check_oblique(double ratio)
 
 int main(void)
 {
-    check_restitution(MATERIAL, 2e-8);
+    check_restitution(MATERIAL, 5e-7);
     check_energy(MATERIAL, 2e-6);
     check_momentum(MATERIAL, 1e-6);
     check_oblique(0.1);
