@@ -67,7 +67,7 @@ void reference_create(struct sim *s, struct scene *scene)
     const double g = v3_norm(s->domain.gravity);
     s->reference = p;
     p->tolerance = scene_real(scene, "reference", NULL, "tolerance");
-    if (!s->fluid.exists || s->grains.n == 0)
+    if (!s->fluid.exists || (scene_errors(scene) == 0 && s->grains.n == 0))
         scene_error(scene, "modules", NULL, "reference",
                     "layered_column needs a fluid and grains");
     for (int z = Z_LO; z <= Z_HI; z++)

@@ -114,7 +114,7 @@ void reference_create(struct sim *s, struct scene *scene)
     if (p->in >= 0)
         p->out = p->in ^ 1;
     if (!s->fluid.exists || p->in < 0 || s->domain.side[p->out].kind != SIDE_OUTFLOW ||
-        s->grains.n == 0)
+        (scene_errors(scene) == 0 && s->grains.n == 0))
         scene_error(
             scene, "modules", NULL, "reference",
             "pressure_drop needs a fluid, grains, and a side that is inflow with outflow "

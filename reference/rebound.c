@@ -99,7 +99,7 @@ void reference_create(struct sim *s, struct scene *scene)
     if (!(g.z < 0.0) || g.x != 0.0 || g.y != 0.0 || s->domain.periodic[2])
         scene_error(scene, "domain", NULL, "gravity",
                     "rebound needs gravity along -z and a floor there");
-    if (s->fluid.exists || s->grains.n == 0)
+    if (s->fluid.exists || (scene_errors(scene) == 0 && s->grains.n == 0))
         scene_error(scene, "modules", NULL, "reference", "rebound needs grains and no fluid");
     if (scene_errors(scene) > 0)
         return;

@@ -150,7 +150,7 @@ void reference_create(struct sim *s, struct scene *scene)
     struct terminal_velocity *const p = xalloc(1, sizeof *p);
     s->reference = p;
     p->tolerance = scene_real(scene, "reference", NULL, "tolerance");
-    if (!s->fluid.exists || s->grains.n < 1)
+    if (!s->fluid.exists || (scene_errors(scene) == 0 && s->grains.n < 1))
         scene_error(scene, "modules", NULL, "reference",
                     "terminal_velocity needs a fluid and a grain");
     else if (!(factor_run(1.0) > 0.0))

@@ -57,7 +57,7 @@ static void add_named(struct sim *s, struct scene *scene, const char *name)
     const double length = v3_norm(normal);
     if (length > 0.0)
         w.normal = v3_scale(1.0 / length, normal);
-    else
+    else if (scene_given(scene, "wall", name, "normal"))
         scene_error(scene, "wall", name, "normal", "must not be zero");
     if (fabs(v3_dot(w.normal, w.velocity)) > 1e-12 * v3_norm(w.velocity))
         scene_error(scene, "wall", name, "velocity", "must lie in the plane of the wall");
