@@ -94,7 +94,7 @@ void contact_free(struct sim *s)
     xfree(s->contacts);
 }
 
-static void make_room(struct sim *s)
+void contact_prepare(struct sim *s)
 {
     struct contact_work *const w = s->contacts;
     if (w->record && w->capacity >= s->neighbours.n_slots)
@@ -352,11 +352,6 @@ static void collect(struct sim *s)
         s->walls.skeleton_force = v3_add(s->walls.skeleton_force, r->skeleton_force);
     }
     half_impulses(s);
-}
-
-void contact_prepare(struct sim *s)
-{
-    make_room(s);
 }
 
 void contact_guard(const struct sim *s)
