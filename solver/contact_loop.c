@@ -40,7 +40,7 @@ struct contact_work {
     int *record_of; /* per slot; 0: no contact */
     int *records;   /* n + 1; of the grain as owner: from records[i] on, count[i] of them */
     int *count;
-    int runs;
+    int runs, runs_most; /* of the grains at hand; room in `report` */
     struct report *report;
     int worst; /* slot of the largest overlap */
 };
@@ -76,10 +76,8 @@ void contact_create(struct sim *s, struct scene *scene)
     bond_init(scene, &materials);
     xfree(names);
     s->contacts = xalloc(1, sizeof *s->contacts);
-    s->contacts->runs = (g->n + RUN - 1) / RUN;
-    s->contacts->records = xalloc((size_t)g->capacity, sizeof *s->contacts->records);
-    s->contacts->count = xalloc((size_t)g->capacity, sizeof *s->contacts->count);
-    s->contacts->report = xalloc((size_t)s->contacts->runs, sizeof *s->contacts->report);
+    grains_follow(&s->grains, (void **)&s->contacts->records, sizeof *s->contacts->records);
+    grains_follow(&s->grains, (void **)&s->contacts->count, sizeof *s->contacts->count);
 }
 
 void contact_free(struct sim *s)
@@ -97,6 +95,13 @@ void contact_free(struct sim *s)
 void contact_prepare(struct sim *s)
 {
     struct contact_work *const w = s->contacts;
+    const int runs = (s->grains.n + RUN - 1) / RUN;
+    if (runs > w->runs_most) {
+        xfree(w->report);
+        w->report = xalloc((size_t)runs, sizeof *w->report);
+        w->runs_most = runs;
+    }
+    w->runs = runs;
     if (w->record && w->capacity >= s->neighbours.n_slots)
         return;
     xfree(w->record);

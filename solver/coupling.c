@@ -40,16 +40,15 @@ void coupling_read(struct sim *s, struct scene *scene)
 void coupling_create(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
-    double largest = 0.0;
-    for (int i = 0; i < s->grains.n; i++)
-        largest = fmax(largest, s->grains.radius[i]);
-    const size_t n = (size_t)s->grains.capacity;
-    c->reach = porosity_reach(&s->grid, largest);
-    c->n_shares = xalloc(n, sizeof *c->n_shares);
-    c->shares = xalloc(n * (size_t)c->reach, sizeof *c->shares);
-    c->kappa = xalloc(n * (size_t)c->reach, sizeof *c->kappa);
-    c->v_ref = xalloc(n, sizeof *c->v_ref);
-    c->slack = xalloc(n, sizeof *c->slack);
+    struct grains *const g = &s->grains;
+    const size_t n = (size_t)g->capacity;
+    c->reach = porosity_reach(&s->grid, grains_widest(g));
+    const size_t reach = (size_t)c->reach;
+    grains_follow(g, (void **)&c->n_shares, sizeof *c->n_shares);
+    grains_follow(g, (void **)&c->shares, reach * sizeof *c->shares);
+    grains_follow(g, (void **)&c->kappa, reach * sizeof *c->kappa);
+    grains_follow(g, (void **)&c->v_ref, sizeof *c->v_ref);
+    grains_follow(g, (void **)&c->slack, sizeof *c->slack);
     c->drag = xalloc(n, sizeof *c->drag);
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);

@@ -65,6 +65,7 @@ static void read_species(struct sim *s, struct scene *scene)
                         "the name must be shorter than %d letters", NAME_LENGTH);
         snprintf(sp->name, NAME_LENGTH, "%.*s", NAME_LENGTH - 1, names[i]);
         sp->diameter = scene_real(scene, "grains", names[i], "diameter");
+        sp->largest = sp->diameter;
         sp->density = scene_real(scene, "grains", names[i], "density");
         sp->count = scene_int(scene, "grains", names[i], "count");
         sp->frozen = scene_choice(scene, "grains", names[i], "frozen") == 1;
@@ -134,6 +135,41 @@ static void allocate(struct grains *g, int n)
         *numbers[i] = xalloc((size_t)n, sizeof(double));
 }
 
+void grains_follow(struct grains *g, void **data, size_t size)
+{
+    g->follower = xrealloc(g->follower, (size_t)g->n_followers, (size_t)g->n_followers + 1,
+                           sizeof *g->follower);
+    g->follower[g->n_followers++] = (struct follower){data, size};
+    *data = xalloc((size_t)g->capacity + 1, size);
+}
+
+void grains_reserve(struct sim *s, int n)
+{
+    struct grains *const g = &s->grains;
+    if (n <= g->capacity)
+        return;
+    const size_t old = (size_t)g->capacity, more = (size_t)n + (size_t)n / 2 + 64;
+    for (int f = 0; f < s->fields.n; f++) {
+        const struct field *const field = &s->fields.field[f];
+        if (field->place == PLACE_GRAIN)
+            *field->data = xrealloc(*field->data, old, more, kind_size(field->kind));
+    }
+    for (int f = 0; f < g->n_followers; f++)
+        *g->follower[f].data =
+            xrealloc(*g->follower[f].data, old + 1, more + 1, g->follower[f].size);
+    g->capacity = (int)more;
+}
+
+double grains_widest(const struct grains *g)
+{
+    double widest = 0.0;
+    for (int i = 0; i < g->n; i++)
+        widest = fmax(widest, g->radius[i]);
+    for (int k = 0; k < g->n_species; k++)
+        widest = fmax(widest, 0.5 * g->species[k].largest);
+    return widest;
+}
+
 static void make_bodies(struct grains *g, struct scene *scene, const struct placed *placed)
 {
     const char *const *names;
@@ -172,6 +208,7 @@ void grains_create(struct sim *s, struct scene *scene)
     const int n = scene_errors(scene) == 0 ? fill(s, scene, &placed) : 0;
     allocate(g, n);
     make_bodies(g, scene, placed);
+    g->next_id = n;
     for (int i = 0; i < g->n_species; i++)
         g->species[i].count = 0;
     for (int i = 0; i < n; i++)
@@ -183,10 +220,10 @@ void grains_create(struct sim *s, struct scene *scene)
 void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
-    void *const all[] = {g->vel_full, g->id,       g->kind,     g->pos,         g->vel,
-                         g->spin,     g->force,    g->torque,   g->load,        g->load_torque,
-                         g->radius,   g->mass,     g->inv_mass, g->inv_inertia, g->volume,
-                         g->species,  g->materials};
+    void *const all[] = {g->vel_full, g->id,        g->kind,     g->pos,         g->vel,
+                         g->spin,     g->force,     g->torque,   g->load,        g->load_torque,
+                         g->radius,   g->mass,      g->inv_mass, g->inv_inertia, g->volume,
+                         g->species,  g->materials, g->follower};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

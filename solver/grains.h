@@ -1,8 +1,10 @@
 /* grains.h - the state of the grains (structure of arrays), their species and materials.
  *
- * Grains are kept sorted by search cell, so a grain's index changes at a list rebuild; `id`
- * (0..n-1, in order of creation) does not. All arrays have `capacity` entries, of which n are
- * used; every one of them is in the field table, by which sorting, output and restart walk. */
+ * Grains are kept sorted by search cell, so a grain's index changes at a list rebuild; `id` does
+ * not: 0, 1, 2 ... in order of creation, never given twice. All arrays have `capacity` entries,
+ * of which n are used; every one of them is in the field table, by which sorting, output and
+ * restart walk. Grains may come and go between steps (insert.h): arrays that others keep per
+ * grain are made by grains_follow, and grow with these. */
 #ifndef GRAINS_H
 #define GRAINS_H
 
@@ -19,15 +21,25 @@ struct material {
 struct species {
     char name[NAME_LENGTH];
     int material;    /* index */
-    double diameter; /* m, volume-equivalent */
+    double diameter; /* m, volume-equivalent; the median where sizes differ */
+    double largest;  /* m, of its diameters */
     double density;  /* kg/m3 */
     int count;
     bool frozen; /* never moves: a fixed skeleton */
 };
 
+/* An array kept per grain outside of the field table: scratch, not sorted. */
+struct follower {
+    void **data; /* address of the owner's pointer */
+    size_t size; /* bytes per grain */
+};
+
 struct grains {
     int n, capacity;
     int n_frozen;
+    int next_id; /* of the next grain that comes */
+    int n_followers;
+    struct follower *follower;
     int *id;
     int *kind;           /* index of the species */
     vec3 *pos;           /* m; up to half a skin outside a periodic box between rebuilds */
@@ -55,6 +67,14 @@ extern const struct key grains_keys[];
  * grains fit. Arrays belong to the sim. */
 void grains_create(struct sim *s, struct scene *scene);
 void grains_free(struct sim *s);
+
+/* Makes *data an array of capacity + 1 entries of `size` bytes, zero, which is kept and enlarged
+ * when the capacity grows. The owner frees it. */
+void grains_follow(struct grains *g, void **data, size_t size);
+/* Room for n grains at least, in every array kept per grain. Indices stay, pointers do not. */
+void grains_reserve(struct sim *s, int n);
+/* m; radius of the widest grain that there is or that a species may still bring. */
+double grains_widest(const struct grains *g);
 
 static inline int grain_material(const struct grains *g, int i)
 {

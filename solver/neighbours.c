@@ -24,9 +24,7 @@ struct search {
 void neighbours_check(const struct sim *s, struct scene *scene)
 {
     const struct grains *const g = &s->grains;
-    double widest = 0.0;
-    for (int i = 0; i < g->n; i++)
-        widest = fmax(widest, 2.0 * g->radius[i]);
+    const double widest = 2.0 * grains_widest(g);
     if (g->n == g->n_frozen || !isfinite(contact_duration(0, 0, 1.0, 1.0, 1.0)))
         return; /* nothing touches */
     const double least = g->n > 1 ? 2.0 * (widest + contact_reach()) : widest;
@@ -42,12 +40,11 @@ void neighbours_check(const struct sim *s, struct scene *scene)
 void neighbours_create(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
-    const size_t n = (size_t)s->grains.capacity;
     nb->reach = contact_reach();
     nb->rows = contact_rows();
-    nb->begin = xalloc(n + 1, sizeof *nb->begin);
-    nb->begin_in = xalloc(n + 1, sizeof *nb->begin_in);
-    nb->pos_built = xalloc(n, sizeof *nb->pos_built);
+    nb->begin = xalloc((size_t)s->grains.n + 1, sizeof *nb->begin);
+    grains_follow(&s->grains, (void **)&nb->begin_in, sizeof *nb->begin_in);
+    grains_follow(&s->grains, (void **)&nb->pos_built, sizeof *nb->pos_built);
     nb->moved = (double)INFINITY; /* stale from the start */
 }
 
@@ -109,7 +106,8 @@ static int search_cell(const struct search *c, const struct domain *d, vec3 x)
            c->n[0] * (search_index(c, d, x.y, 1) + c->n[1] * search_index(c, d, x.z, 2));
 }
 
-/* Sorts all arrays of the grains by search cell; returns order[new] = old. */
+/* Sorts all arrays of the grains by search cell, without those that are gone (id < 0); returns
+ * order[new] = old. */
 static int *sort_grains(struct sim *s, struct search *c)
 {
     struct grains *const g = &s->grains;
@@ -118,6 +116,8 @@ static int *sort_grains(struct sim *s, struct search *c)
     int *const home = xalloc((size_t)g->n, sizeof *home);
     c->begin = xalloc((size_t)cells + 1, sizeof *c->begin);
     for (int i = 0; i < g->n; i++) {
+        if (g->id[i] < 0)
+            continue;
         g->pos[i] = domain_wrap(&s->domain, g->pos[i]);
         home[i] = search_cell(c, &s->domain, g->pos[i]);
         c->begin[home[i] + 1]++;
@@ -127,7 +127,9 @@ static int *sort_grains(struct sim *s, struct search *c)
     int *const next = xalloc((size_t)cells, sizeof *next);
     memcpy(next, c->begin, (size_t)cells * sizeof *next);
     for (int i = 0; i < g->n; i++)
-        order[next[home[i]]++] = i;
+        if (g->id[i] >= 0)
+            order[next[home[i]]++] = i;
+    g->n = c->begin[cells];
     xfree(next);
     xfree(home);
 #pragma omp parallel for schedule(dynamic)
@@ -202,6 +204,7 @@ static int pairs_of(const struct sim *s, const struct search *c, int i, int *out
 
 /* The old list, kept while the new one is made. */
 struct old_list {
+    int n; /* grains that it knows; those that came since have larger indices */
     int *begin, *other;
     unsigned char *live;
     double *history;
@@ -215,7 +218,8 @@ static void carry_history(struct neighbours *nb, const struct old_list *old, con
     for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++) {
         const int other = nb->other[t] < 0 ? nb->other[t] : order[nb->other[t]];
         nb->live[t] = 0;
-        for (int o = old->begin[was]; o < old->begin[was + 1]; o++) {
+        for (int o = was < old->n ? old->begin[was] : 0;
+             was < old->n && o < old->begin[was + 1]; o++) {
             if (!old->live[o] || old->other[o] != other)
                 continue;
             nb->live[t] = 1;
@@ -248,6 +252,8 @@ static void make_slots(struct sim *s, const struct search *c, const int *order)
     const int n = s->grains.n;
     struct old_list old = {.other = nb->other, .live = nb->live, .history = nb->history};
     old.begin = nb->begin;
+    old.n = nb->n_listed;
+    nb->n_listed = n;
     nb->begin = xalloc((size_t)n + 1, sizeof *nb->begin);
 #pragma omp parallel for schedule(dynamic, 256)
     for (int i = 0; i < n; i++)

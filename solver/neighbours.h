@@ -15,6 +15,7 @@ struct scene;
 struct neighbours {
     double skin;  /* m */
     double reach; /* m, gap up to which laws act */
+    int n_listed; /* grains in the list */
     size_t n_slots, capacity;
     int *begin;    /* n + 1 */
     int *owner;    /* per slot */
@@ -38,6 +39,8 @@ void neighbours_free(struct sim *s);
 /* A thread reports the largest displacement among its grains, m. */
 void neighbours_moved(struct sim *s, double moved);
 bool neighbours_stale(const struct sim *s);
-void neighbours_rebuild(struct sim *s); /* sorts the grains, makes the list anew */
+/* Sorts the grains, makes the list anew. Grains that came since the last list stand behind the
+ * others; one that is to go is marked by id = -1 and leaves here. */
+void neighbours_rebuild(struct sim *s);
 
 #endif
