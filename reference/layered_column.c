@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include "../solver/bed.h"
+#include "../solver/fluid_state.h"
 #include "../solver/sim.h"
 
 const struct about reference_about = {
@@ -164,14 +165,16 @@ static double flux_of(struct layered_column *p, double lost)
 static double given_flux(const struct sim *s, int z)
 {
     const struct side *const side = &s->domain.side[z];
-    const double in = side->kind == SIDE_FLUX ? side->flux : flow_velocity(&s->flow, s->t);
+    const double in =
+        side->kind == SIDE_FLUX ? course_at(&side->flux, s->t) : fluid_inflow(s, z, s->t);
     return z == Z_LO ? in : -in;
 }
 
 /* m; where the side gives it: an outflow's is 0. */
 static double given_head(const struct sim *s, int z)
 {
-    return s->domain.side[z].kind == SIDE_HEAD ? s->domain.side[z].head : 0.0;
+    const struct side *const side = &s->domain.side[z];
+    return side->kind == SIDE_HEAD ? course_at(&side->head, s->t) : 0.0;
 }
 
 /* m/s; mean flux upwards through the low faces of the layers above the first. */

@@ -158,11 +158,12 @@ static void fluid_fraction(struct sim *s)
     grid_ghosts(g, &s->domain, c->eps);
 }
 
-/* M of coupling.h: m_f^2, mean of the two faces of each cell. */
+/* M of coupling.h: m_f^2 (form 27c: m_f), mean of the two faces of each cell. */
 static void sense_squares(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     const struct grid *const g = &s->grid;
+    const bool whole = s->fluid.whole_pressure;
     for (int a = 0; a < 3; a++) {
         const int step = g->s[a];
 #pragma omp parallel for schedule(static)
@@ -171,7 +172,7 @@ static void sense_squares(struct sim *s)
                 for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
                     const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
                     const double hi = 0.5 * (c->eps[at] + c->eps[at + step]);
-                    c->M[a][at] = 0.5 * (lo * lo + hi * hi);
+                    c->M[a][at] = 0.5 * (whole ? lo + hi : lo * lo + hi * hi);
                 }
     }
 }

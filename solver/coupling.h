@@ -12,6 +12,9 @@
  * grain p is the sum of its parts of B_f u_f - S_f, so the momentum handed over cancels to
  * round-off. The pressure and viscous forces, V_p G, are handed over with the same weights.
  *
+ * Form 27c (fluid.whole_pressure) passes drag over eps: eps_f in place of eps_f^2 here and in M
+ * below; and no G.
+ *
  * kappa is taken at the velocity at hand; but where that swings about the one it was taken at
  * before, at the mean of the two: for a law that is quadratic in the velocity this is Newton's
  * step, where the velocity at hand alone would swing for ever once dt B/rho is large.

@@ -8,12 +8,14 @@
 #include "../drag/drag.h"
 #include "sim.h"
 
-/* Q of coupling.h: m_f times the superficial velocity, mean of the two faces of each cell. */
+/* Q of coupling.h: m_f times the superficial velocity (form 27c: that alone), mean of the two
+ * faces of each cell. */
 static void sense_flow(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     const struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
+    const bool whole = f->whole_pressure;
     for (int a = 0; a < 3; a++) {
         const int step = g->s[a];
 #pragma omp parallel for schedule(static)
@@ -21,8 +23,8 @@ static void sense_flow(struct sim *s)
             for (int j = 1; j <= g->n[1]; j++)
                 for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
                     const int up = at + step;
-                    const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
-                    const double hi = 0.5 * (c->eps[at] + c->eps[up]);
+                    const double lo = whole ? 1.0 : 0.5 * (c->eps[at] + c->eps[at - step]);
+                    const double hi = whole ? 1.0 : 0.5 * (c->eps[at] + c->eps[up]);
                     c->Q[a][at] = 0.5 * (lo * (f->eps_f[a][at] * f->u[a][at]) +
                                          hi * (f->eps_f[a][up] * f->u[a][up]));
                 }
@@ -114,7 +116,7 @@ static void spread_drag(struct sim *s)
     }
 }
 
-/* B = m^2 mean(K)/V, S = m^2 mean(KV)/V on faces */
+/* B = m^2 mean(K)/V, S = m^2 mean(KV)/V on faces (form 27c: m) */
 static void drag_on_faces(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
@@ -127,9 +129,10 @@ static void drag_on_faces(struct sim *s)
         grid_face_mean(&s->grid, &s->domain, c->K[a], a, f->drag[a]);
         grid_face_mean(&s->grid, &s->domain, c->KV[a], a, f->drag_s[a]);
         for (size_t k = 0; k < total; k++) {
-            const double m2 = f->eps_f[a][k] * f->eps_f[a][k] * inverse;
-            f->drag[a][k] *= m2;
-            f->drag_s[a][k] *= m2;
+            const double m = f->eps_f[a][k];
+            const double scale = (f->whole_pressure ? m : m * m) * inverse;
+            f->drag[a][k] *= scale;
+            f->drag_s[a][k] *= scale;
         }
     }
 }
@@ -171,7 +174,8 @@ static vec3 grain_load(struct sim *s, int i)
         for (int a = 0; a < 3; a++) {
             const double *const G = s->fluid.stress[a];
             drag[a] += slack[a] * part * (c->Q[a][at] - v[a] * c->M[a][at]);
-            stress[a] += w[k].weight * 0.5 * (G[at] + G[at + s->grid.s[a]]);
+            if (!s->fluid.whole_pressure)
+                stress[a] += w[k].weight * 0.5 * (G[at] + G[at + s->grid.s[a]]);
         }
     }
     c->drag[i] = v3(drag[0], drag[1], drag[2]);
@@ -196,7 +200,7 @@ static vec3 lost_by_fluid(const struct sim *s)
                     const int at = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
                     const double part = open && (n == 1 || n == g->n[a] + 1) ? 0.5 : 1.0;
                     double lost = f->drag[a][at] * f->u[a][at] - f->drag_s[a][at];
-                    if (s->coupling.pressure_gradient)
+                    if (s->coupling.pressure_gradient && !f->whole_pressure)
                         lost += (1.0 - f->eps_f[a][at]) * f->stress[a][at];
                     sum[a] += part * g->volume * lost;
                 }

@@ -26,6 +26,12 @@ const struct key domain_keys[] = {
      "total head held at a side of kind head"},
     {"side", "flux", KEY_REAL, "m s-1", "(-inf, inf)", "0 m/s",
      "superficial velocity into the box at a side of kind flux"},
+    {"side", "inflow", KEY_REAL, "m s-1", "flow | (-inf, inf)", "flow",
+     "superficial velocity into the box at a side of kind inflow; flow: that of [flow]"},
+    {"side", "ramp", KEY_REAL, "s", "[0, inf)", "0 s",
+     "time in which head, flux or inflow of the side grows from 0 at t = 0"},
+    {"side", "table", KEY_TEXT, "", "", "",
+     "CSV file of head, flux or inflow of the side: time in s, value in m or m/s"},
     {0},
 };
 
@@ -63,6 +69,46 @@ static void read_sides(struct domain *d, struct scene *s, int axis)
     d->inv_image[axis] = d->periodic[axis] && d->size[axis] > 0.0 ? 1.0 / d->size[axis] : 0.0;
 }
 
+/* A value in time of one side: `key`, or its table, with its ramp. */
+static void read_course(struct course *c, struct scene *s, const char *name, const char *key,
+                        enum side_kind asks, const struct side *side)
+{
+    if (scene_given(s, "side", name, key) && side->kind != asks)
+        scene_error(s, "side", name, key, "only a side of kind %s takes it, %s is %s",
+                    side_kind_name[asks], name, side_kind_name[side->kind]);
+    if (side->kind != asks)
+        return;
+    if (!scene_word(s, "side", name, key, "flow"))
+        c->value = scene_real(s, "side", name, key);
+    c->ramp = scene_real(s, "side", name, "ramp");
+    course_read_table(c, s, "side", name, "table");
+    if (c->n > 0 && scene_given(s, "side", name, key))
+        scene_error(s, "side", name, key, "contradicts the table of the side: give either one");
+}
+
+static void read_side(struct domain *d, struct scene *s, const char *name, int side)
+{
+    struct side *const e = &d->side[side];
+    const bool timed = e->kind == SIDE_HEAD || e->kind == SIDE_FLUX || e->kind == SIDE_INFLOW;
+    e->velocity = scene_vector(s, "side", name, "velocity");
+    read_course(&e->head, s, name, "head", SIDE_HEAD, e);
+    read_course(&e->flux, s, name, "flux", SIDE_FLUX, e);
+    read_course(&e->inflow, s, name, "inflow", SIDE_INFLOW, e);
+    e->own_inflow = !scene_word(s, "side", name, "inflow", "flow") || e->inflow.n > 0;
+    static const char *const of_time[] = {"ramp", "table"};
+    for (int i = 0; i < 2; i++)
+        if (scene_given(s, "side", name, of_time[i]) && !timed)
+            scene_error(s, "side", name, of_time[i],
+                        "only a side of kind head, flux or inflow takes it, %s is %s", name,
+                        side_kind_name[e->kind]);
+    const double normal = side < 2 ? e->velocity.x : side < 4 ? e->velocity.y : e->velocity.z;
+    if (normal != 0.0)
+        scene_error(s, "side", name, "velocity", "must lie in the plane of the side");
+    if (v3_norm(e->velocity) > 0.0 && e->kind != SIDE_WALL)
+        scene_error(s, "side", name, "velocity", "only a side of kind wall moves, %s is %s",
+                    name, side_kind_name[e->kind]);
+}
+
 static void read_side_values(struct domain *d, struct scene *s)
 {
     const char *const *names;
@@ -71,31 +117,19 @@ static void read_side_values(struct domain *d, struct scene *s)
         int side = 0;
         while (side < 6 && strcmp(names[i], side_name[side]) != 0)
             side++;
-        if (side == 6) {
+        if (side == 6)
             scene_error(s, "side", names[i], NULL, "no such side; there are x- x+ y- y+ z- z+");
-            continue;
-        }
-        struct side *const e = &d->side[side];
-        e->velocity = scene_vector(s, "side", names[i], "velocity");
-        e->head = scene_real(s, "side", names[i], "head");
-        e->flux = scene_real(s, "side", names[i], "flux");
-        const double normal = side < 2   ? e->velocity.x
-                              : side < 4 ? e->velocity.y
-                                         : e->velocity.z;
-        if (normal != 0.0)
-            scene_error(s, "side", names[i], "velocity", "must lie in the plane of the side");
-        if (v3_norm(e->velocity) > 0.0 && e->kind != SIDE_WALL)
-            scene_error(s, "side", names[i], "velocity",
-                        "only a side of kind wall moves, %s is %s", side_name[side],
-                        side_kind_name[e->kind]);
-        if (scene_given(s, "side", names[i], "head") && e->kind != SIDE_HEAD)
-            scene_error(s, "side", names[i], "head",
-                        "only a side of kind head takes it, %s is %s", side_name[side],
-                        side_kind_name[e->kind]);
-        if (scene_given(s, "side", names[i], "flux") && e->kind != SIDE_FLUX)
-            scene_error(s, "side", names[i], "flux",
-                        "only a side of kind flux takes it, %s is %s", side_name[side],
-                        side_kind_name[e->kind]);
+        else
+            read_side(d, s, names[i], side);
+    }
+}
+
+void domain_free(struct domain *d)
+{
+    for (int i = 0; i < 6; i++) {
+        course_free(&d->side[i].head);
+        course_free(&d->side[i].flux);
+        course_free(&d->side[i].inflow);
     }
 }
 

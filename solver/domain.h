@@ -7,7 +7,7 @@
 #define DOMAIN_H
 
 #include <stdbool.h>
-#include "scene.h"
+#include "course.h"
 
 enum side_kind { /* order of the words in the keys of [domain] */
                  SIDE_PERIODIC,
@@ -24,9 +24,11 @@ enum { X_LO, X_HI, Y_LO, Y_HI, Z_LO, Z_HI }; /* sides; names "x-" "x+" ... */
 
 struct side {
     enum side_kind kind;
-    vec3 velocity; /* m/s, of a wall, in its plane */
-    double head;   /* m */
-    double flux;   /* m/s, positive into the box */
+    vec3 velocity;        /* m/s, of a wall, in its plane */
+    struct course head;   /* m, of a side of kind head */
+    struct course flux;   /* m/s, positive into the box, of a side of kind flux */
+    struct course inflow; /* m/s, superficial, into the box, of a side of kind inflow */
+    bool own_inflow;      /* else the inflow is that of [flow] */
 };
 
 struct domain {
@@ -41,6 +43,8 @@ struct domain {
 extern const struct key domain_keys[];
 extern const char *const side_name[6];     /* "x-", "x+", ... */
 extern const char *const side_kind_name[]; /* "periodic", "wall", ... */
+
+void domain_free(struct domain *d);
 
 /* Reads [domain] and [side *]; contradictory sides go on the scene's list of errors. */
 void domain_read(struct domain *d, struct scene *s);

@@ -109,7 +109,7 @@ static void relaxation_lines(const struct sim *s, struct feasibility *f)
         const int i = grain_of_species(s, k);
         if (i < 0)
             continue;
-        const double speed = fmax(s->flow.velocity, s->flow.velocity_end) / 0.4;
+        const double speed = flow_most(&s->flow) / 0.4;
         const double kappa =
             drag_kappa(0.4, speed, s->grains.species[k].diameter, s->fluid.rho, s->fluid.mu);
         if (!(kappa > 0.0))

@@ -5,7 +5,14 @@
 
 double fluid_expected_velocity(const struct sim *s)
 {
-    return fmax(s->flow.velocity, s->flow.velocity_end) / (s->grains.n > 0 ? 0.4 : 1.0);
+    double most = fmax(flow_most(&s->flow), v3_norm(s->flow.held_rate));
+    for (int side = 0; side < 6; side++) {
+        most = fmax(most, course_most(&s->domain.side[side].inflow));
+        most = fmax(most, v3_norm(s->domain.side[side].velocity));
+    }
+    if (s->flow.profile == PROFILE_PARABOLIC)
+        most *= 2.25; /* two pairs of walls */
+    return most / (s->grains.n > 0 ? 0.4 : 1.0);
 }
 
 double fluid_courant_limit(const struct sim *s)
@@ -131,6 +138,24 @@ void fluid_pressure_sides(const struct domain *d, enum poisson_side side[6])
                                      : POISSON_NEUMANN;
 }
 
+double fluid_inflow(const struct sim *s, int side, double t)
+{
+    const struct side *const e = &s->domain.side[side];
+    return e->own_inflow ? course_at(&e->inflow, t) : flow_velocity(&s->flow, t);
+}
+
+/* What the profile makes of the mean velocity at cell i of direction b, beside an inflow side:
+ * the mean over each cell of a parabola between two walls, so that the mean over the side is 1. */
+static double profile(const struct sim *s, int b, int i)
+{
+    const struct side *const lo = &s->domain.side[2 * b], *const hi = lo + 1;
+    const bool walls = lo->kind == SIDE_WALL && hi->kind == SIDE_WALL;
+    if (s->flow.profile == PROFILE_UNIFORM || !walls)
+        return 1.0;
+    const double n = s->grid.n[b], x0 = (i - 1) / n, x1 = i / n;
+    return n * (3.0 * (x1 * x1 - x0 * x0) - 2.0 * (x1 * x1 * x1 - x0 * x0 * x0));
+}
+
 /* Index of layer i of direction a at (j, k) of the two directions after it. */
 static inline int at_layer(const struct grid *g, int a, int i, int j, int k)
 {
@@ -144,7 +169,13 @@ static void normal_component(struct sim *s, int a, double t)
     const int nb = g->n[(a + 1) % 3], nc = g->n[(a + 2) % 3], n = g->n[a];
     double *const u = s->fluid.u[a];
     const double *const m = s->fluid.eps_f[a];
-    const double superficial = flow_velocity(&s->flow, t);
+    double given[2];
+    for (int end = 0; end < 2; end++) {
+        const struct side *const side = &s->domain.side[2 * a + end];
+        given[end] = side->kind == SIDE_INFLOW ? fluid_inflow(s, 2 * a + end, t)
+                     : side->kind == SIDE_FLUX ? course_at(&side->flux, t)
+                                               : 0.0;
+    }
     for (int k = 1; k <= nc; k++)
         for (int j = 1; j <= nb; j++) {
             const int lo = at_layer(g, a, 1, j, k), hi = at_layer(g, a, n + 1, j, k);
@@ -159,9 +190,10 @@ static void normal_component(struct sim *s, int a, double t)
                 if (side->kind == SIDE_WALL || side->kind == SIDE_SLIP)
                     u[face] = 0.0;
                 else if (side->kind == SIDE_INFLOW)
-                    u[face] = (end ? -1.0 : 1.0) * superficial / m[face];
+                    u[face] = (end ? -1.0 : 1.0) * given[end] * profile(s, (a + 1) % 3, j) *
+                              profile(s, (a + 2) % 3, k) / m[face];
                 else if (side->kind == SIDE_FLUX)
-                    u[face] = (end ? -1.0 : 1.0) * side->flux / m[face];
+                    u[face] = (end ? -1.0 : 1.0) * given[end] / m[face];
             }
             u[lo - g->s[a]] = u[lo];
         }
@@ -214,7 +246,8 @@ double fluid_boundary_pressure(const struct sim *s, int side)
     if (s->domain.side[side].kind == SIDE_OUTFLOW)
         return 0.0;
     if (s->domain.side[side].kind == SIDE_HEAD)
-        return s->fluid.rho * (gravity > 0.0 ? gravity : 9.81) * s->domain.side[side].head;
+        return s->fluid.rho * (gravity > 0.0 ? gravity : 9.81) *
+               course_at(&s->domain.side[side].head, s->t);
     double sum = 0.0;
     for (int k = 1; k <= nc; k++)
         for (int j = 1; j <= nb; j++) {

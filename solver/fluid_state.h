@@ -32,6 +32,9 @@ static inline int face_last(const struct grid *g, int a, int b)
 void fluid_pressure_sides(const struct domain *d, enum poisson_side side[6]);
 bool side_open(const struct domain *d, int side); /* outflow or head: pressure given */
 
+/* m/s; mean superficial velocity into the box at an inflow side at time t. */
+double fluid_inflow(const struct sim *s, int side, double t);
+
 /* Normal velocities on the faces of sides where they are given, ghosts of all components. */
 void fluid_velocity_sides(struct sim *s, double t);
 

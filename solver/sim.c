@@ -55,6 +55,8 @@ void sim_free(struct sim *s)
     contact_free(s);
     neighbours_free(s);
     grains_free(s);
+    flow_free(&s->flow);
+    domain_free(&s->domain);
     tables_free(&s->tables);
     fields_free(&s->fields);
     series_free(&s->series);

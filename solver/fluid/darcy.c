@@ -165,7 +165,9 @@ static void conductivities(struct sim *s)
 static double held(const struct sim *s, int side)
 {
     const struct side *const e = &s->domain.side[side];
-    return e->kind == SIDE_HEAD ? s->fluid.rho * s->fluid.work->gravity * e->head : 0.0;
+    return e->kind == SIDE_HEAD
+               ? s->fluid.rho * s->fluid.work->gravity * course_at(&e->head, s->t + s->fluid.dt)
+               : 0.0;
 }
 
 /* Superficial flow of the grains' own motion and of the driving gradient through a face. */
@@ -193,9 +195,9 @@ static double flux(const struct sim *s, const double *p, int a, int n, int c)
             return carried(s, a, c) - out * K * (inside - held(s, side)) * 2.0 / h;
         }
         if (s->domain.side[side].kind == SIDE_FLUX)
-            return out * s->domain.side[side].flux;
+            return out * course_at(&s->domain.side[side].flux, s->t + s->fluid.dt);
         if (s->domain.side[side].kind == SIDE_INFLOW)
-            return out * flow_velocity(&s->flow, s->t + s->fluid.dt);
+            return out * fluid_inflow(s, side, s->t + s->fluid.dt);
         return 0.0;
     }
     return carried(s, a, c) - K * (p[c] - p[c - g->s[a]]) / h;
