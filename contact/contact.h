@@ -6,7 +6,7 @@
  * Parameters are per pair of materials: an answer reads [material *] (and [pair A-B], which
  * overrides for that pair of materials, either order) in contact_init and keeps a table of
  * n_materials^2 entries, indexed by touch.pair; it keeps no other state. What a contact
- * remembers lives in its rows of history: `history[k][c]` is double k of contact c, zero when
+ * remembers lives in its rows of history: `history[k][c]` is number k of contact c, zero when
  * the contact is new, forgotten when it ends (depth below -contact_range). Called from parallel
  * loops. */
 #ifndef CONTACT_H
@@ -17,14 +17,18 @@
 
 extern const struct about contact_about;
 extern const struct key contact_keys[]; /* of sections "material" and "pair" */
-extern const int contact_history;       /* doubles per contact */
+extern const int contact_history;       /* reals per contact */
 
 /* Reads the parameters; wrong ones go on the scene's list. */
 void contact_init(struct scene *s, const struct materials *m);
 
-/* Sets fx..fz, mx..mz, fn and energy of every contact of the block. Where depth <= 0 the force
- * must be zero. A law without cohesion never pulls: the normal force is cut at zero. */
-void contact_forces(struct touch *t, double (*history)[TOUCH]);
+/* Sets fx..fz, fn and kn of every contact of the block. Where depth <= 0 the force must be
+ * zero. A law without cohesion never pulls: the normal force is cut at zero. */
+void contact_forces(struct touch *t, real (*history)[TOUCH]);
+
+/* Sets energy [J], what the springs hold after contact_forces; asked for at the end of a step
+ * whose ledger is closed, not at every one. */
+void contact_energy(struct touch *t, real (*history)[TOUCH]);
 
 /* s; the shortest duration of a contact between grains of mass m [kg] and radius r [m] of
  * material a against material b at relative speed v [m/s]; INFINITY if there is none. For the

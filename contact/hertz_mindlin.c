@@ -40,12 +40,23 @@ const int contact_history = 4; /* tangential force of the spring, N; depth, m */
 
 enum { PAIRS = 256, MATERIALS = 16 };
 static int materials;
-static double e_star[PAIRS], g_star[PAIRS], zeta[PAIRS], mu[PAIRS];
+static double e_star[PAIRS], g_star[PAIRS];
 static double young[MATERIALS], poisson[MATERIALS];
+
+/* Of a pair of materials, as the loop needs them. */
+struct constants {
+    real hertz; /* Pa, 4/3 E* */
+    real shear; /* Pa, 8 G* */
+    real cn;    /* Pa^1/2, dashpots per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
+    real ct;    /* Pa^1/2, 2 sqrt(5/6) zeta sqrt(8 G*) */
+    real mu;
+};
+static struct constants constants[PAIRS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
-    double restitution[PAIRS];
+    const double tsuji = 2.0 * sqrt(5.0 / 6.0);
+    double restitution[PAIRS], friction[PAIRS];
     materials = m->n;
     if (m->n > MATERIALS) {
         scene_error(s, "material", NULL, NULL, "at most %d materials", MATERIALS);
@@ -56,62 +67,87 @@ void contact_init(struct scene *s, const struct materials *m)
         poisson[a] = scene_real(s, "material", m->name[a], "poisson");
     }
     materials_pair_values(s, m, "restitution", MIX_GEOMETRIC, restitution);
-    materials_pair_values(s, m, "friction", MIX_GEOMETRIC, mu);
+    materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
         const int a = p / m->n, b = p % m->n;
         const double na = poisson[a], nb = poisson[b];
         e_star[p] = 1.0 / ((1.0 - na * na) / young[a] + (1.0 - nb * nb) / young[b]);
         g_star[p] = 1.0 / (2.0 * (2.0 - na) * (1.0 + na) / young[a] +
                            2.0 * (2.0 - nb) * (1.0 + nb) / young[b]);
-        zeta[p] = damping_ratio(restitution[p]);
+        const double damping = tsuji * damping_ratio(restitution[p]);
+        constants[p] = (struct constants){.hertz = (real)(4.0 / 3.0 * e_star[p]),
+                                          .shear = (real)(8.0 * g_star[p]),
+                                          .cn = (real)(damping * sqrt(2.0 * e_star[p])),
+                                          .ct = (real)(damping * sqrt(8.0 * g_star[p])),
+                                          .mu = (real)friction[p]};
     }
 }
 
-void contact_forces(struct touch *t, double (*history)[TOUCH])
+/* One material all over needs no look-up per contact. */
+static inline __attribute__((always_inline)) void
+forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
 {
-    const double tsuji = 2.0 * 0.91287092917527685; /* 2 sqrt(5/6) */
-    double *const hx = history[0], *const hy = history[1], *const hz = history[2];
-    double *const depth_old = history[3];
-    const double dt = t->dt;
+    real *const restrict hx = history[0], *const restrict hy = history[1];
+    real *const restrict hz = history[2], *const restrict depth_old = history[3];
+    const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const int p = t->pair[c];
-        const double nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
-        const double depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const double a = sqrt(t->r_eff[c] * depth), m = t->m_eff[c];
-        const double hertz = 4.0 / 3.0 * e_star[p] * a * depth;
-        const double kt = 8.0 * g_star[p] * a;
-        const double damping = tsuji * zeta[p] * t->start[c];
-        const double normal = hertz - damping * sqrt(2.0 * e_star[p] * a * m) * t->vn[c];
-        const double fn = normal > 0.0 ? normal : 0.0;
+        const struct constants k = one ? only : constants[t->pair[c]];
+        const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
+        const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
+        const real a = sqrt(t->r_eff[c] * depth), damping = t->start[c] * sqrt(a * t->m_eff[c]);
+        const real kn = k.hertz * a, kt = k.shear * a;
+        const real normal = kn * depth - k.cn * damping * t->vn[c];
+        const real fn = normal > 0.0 ? normal : 0.0;
         /* the force of the spring: scaled down in unloading, turned, stretched */
-        const double v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
-        const double vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
-        const double along = hx[c] * nx + hy[c] * ny + hz[c] * nz;
-        const double before = hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c];
-        const double px = hx[c] - along * nx, py = hy[c] - along * ny, pz = hz[c] - along * nz;
-        const double after = px * px + py * py + pz * pz;
-        const double unload = depth < depth_old[c] ? depth / depth_old[c] : 1.0;
-        const double keep = after > 0.0 ? sqrt(unload * before / after) : 0.0;
-        const double ex = keep * px - kt * vx * dt, ey = keep * py - kt * vy * dt,
-                     ez = keep * pz - kt * vz * dt;
-        const double ct = damping * sqrt(kt * m);
-        const double qx = ex - ct * vx, qy = ey - ct * vy, qz = ez - ct * vz;
-        const double q = sqrt(qx * qx + qy * qy + qz * qz), limit = mu[p] * fn;
-        const double cut = q > limit ? limit / q : 1.0;
-        const double fx = cut * qx, fy = cut * qy, fz = cut * qz;
+        const real v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
+        const real vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
+        const real along = hx[c] * nx + hy[c] * ny + hz[c] * nz;
+        const real before = hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c];
+        const real px = hx[c] - along * nx, py = hy[c] - along * ny, pz = hz[c] - along * nz;
+        const real after = px * px + py * py + pz * pz;
+        const bool unloads = depth < depth_old[c];
+        const real up = unloads ? depth * before : before;
+        const real down = unloads ? depth_old[c] * after : after;
+        const real keep = down > 0.0 ? sqrt(up / down) : 0.0;
+        const real ex = keep * px - kt * vx * dt, ey = keep * py - kt * vy * dt,
+                   ez = keep * pz - kt * vz * dt;
+        const real ct = k.ct * damping;
+        const real qx = ex - ct * vx, qy = ey - ct * vy, qz = ez - ct * vz;
+        const real q = sqrt(qx * qx + qy * qy + qz * qz), limit = k.mu * fn;
+        const bool slides = q > limit;
+        const real cut = slides ? limit / q : 1.0;
+        const real fx = cut * qx, fy = cut * qy, fz = cut * qz;
         /* where it slides, the spring is what gives the force at the limit */
-        hx[c] = q > limit ? fx + ct * vx : ex;
-        hy[c] = q > limit ? fy + ct * vy : ey;
-        hz[c] = q > limit ? fz + ct * vz : ez;
+        hx[c] = slides ? fx + ct * vx : ex;
+        hy[c] = slides ? fy + ct * vy : ey;
+        hz[c] = slides ? fz + ct * vz : ez;
         depth_old[c] = depth;
         t->fx[c] = fn * nx + fx;
         t->fy[c] = fn * ny + fy;
         t->fz[c] = fn * nz + fz;
-        t->mx[c] = t->my[c] = t->mz[c] = 0.0;
         t->fn[c] = fn;
-        const double stored = hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c];
-        t->energy[c] = 0.4 * hertz * depth + (kt > 0.0 ? 0.5 * stored / kt : 0.0);
+        t->kn[c] = kn;
+    }
+}
+
+void contact_forces(struct touch *t, real (*history)[TOUCH])
+{
+    if (materials == 1)
+        forces(t, history, true, constants[0]);
+    else
+        forces(t, history, false, constants[0]);
+}
+
+void contact_energy(struct touch *t, real (*history)[TOUCH])
+{
+    const real *const hx = history[0], *const hy = history[1], *const hz = history[2];
+    for (int c = 0; c < t->n; c++) {
+        const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
+        const double kt = (double)(constants[t->pair[c]].shear * sqrt(t->r_eff[c] * depth));
+        const double stored = (double)(hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c]);
+        t->energy[c] =
+            0.4 * (double)t->kn[c] * depth * depth + (kt > 0.0 ? 0.5 * stored / kt : 0.0);
     }
 }
 

@@ -39,11 +39,20 @@ const int contact_history = 3; /* s, m */
 
 enum { PAIRS = 256 }; /* 16 materials */
 static int materials;
-static double k_n[PAIRS], k_t[PAIRS], zeta[PAIRS], mu[PAIRS];
+static double k_n[PAIRS];
+
+/* Of a pair of materials, as the loop needs them. */
+struct constants {
+    real kn, kt; /* N/m */
+    real slack;  /* m/N, 1/kt; 0 without a tangential spring */
+    real cn, ct; /* dashpots per sqrt(m*): 2 zeta sqrt(k) */
+    real mu;
+};
+static struct constants constants[PAIRS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
-    double restitution[PAIRS], ratio[PAIRS];
+    double restitution[PAIRS], ratio[PAIRS], friction[PAIRS];
     materials = m->n;
     if (m->n * m->n > PAIRS) {
         scene_error(s, "material", NULL, NULL, "at most 16 materials");
@@ -52,53 +61,78 @@ void contact_init(struct scene *s, const struct materials *m)
     materials_pair_values(s, m, "stiffness", MIX_SERIES, k_n);
     materials_pair_values(s, m, "stiffness_ratio", MIX_GEOMETRIC, ratio);
     materials_pair_values(s, m, "restitution", MIX_GEOMETRIC, restitution);
-    materials_pair_values(s, m, "friction", MIX_GEOMETRIC, mu);
+    materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
-        k_t[p] = ratio[p] * k_n[p];
-        zeta[p] = damping_ratio(restitution[p]);
+        const double kt = ratio[p] * k_n[p], damping = 2.0 * damping_ratio(restitution[p]);
+        constants[p] = (struct constants){.kn = (real)k_n[p],
+                                          .kt = (real)kt,
+                                          .slack = (real)(kt > 0.0 ? 1.0 / kt : 0.0),
+                                          .cn = (real)(damping * sqrt(k_n[p])),
+                                          .ct = (real)(damping * sqrt(kt)),
+                                          .mu = (real)friction[p]};
     }
 }
 
-void contact_forces(struct touch *t, double (*history)[TOUCH])
+/* One material all over needs no look-up per contact. */
+static inline __attribute__((always_inline)) void
+forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
 {
-    double *const sx = history[0], *const sy = history[1], *const sz = history[2];
-    const double dt = t->dt;
+    real *const restrict sx = history[0], *const restrict sy = history[1];
+    real *const restrict sz = history[2];
+    const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const int p = t->pair[c];
-        const double nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
-        const double depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const double damping = 2.0 * zeta[p] * sqrt(t->m_eff[c]) * t->start[c];
-        const double normal = k_n[p] * depth - damping * sqrt(k_n[p]) * t->vn[c];
-        const double push = normal > 0.0 ? normal : 0.0;
-        const double fn = depth > 0.0 ? push : 0.0;
+        const struct constants k = one ? only : constants[t->pair[c]];
+        const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
+        const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
+        const real damping = t->start[c] * sqrt(t->m_eff[c]);
+        const real normal = k.kn * depth - k.cn * damping * t->vn[c];
+        const real push = normal > 0.0 ? normal : 0.0;
+        const real fn = depth > 0.0 ? push : 0.0;
         /* the spring of the last step, turned into the plane of this one, and its stretch */
-        const double v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
-        const double vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
-        const double along = sx[c] * nx + sy[c] * ny + sz[c] * nz;
-        const double before = sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c];
-        const double px = sx[c] - along * nx, py = sy[c] - along * ny, pz = sz[c] - along * nz;
-        const double after = px * px + py * py + pz * pz;
-        const double turn = after > 0.0 ? sqrt(before / after) : 0.0;
-        const double ex = turn * px + vx * dt, ey = turn * py + vy * dt,
-                     ez = turn * pz + vz * dt;
-        const double kt = k_t[p], ct = damping * sqrt(kt);
-        const double qx = -kt * ex - ct * vx, qy = -kt * ey - ct * vy, qz = -kt * ez - ct * vz;
-        const double q = sqrt(qx * qx + qy * qy + qz * qz), limit = mu[p] * fn;
-        const double cut = q > limit ? limit / q : 1.0;
-        const double fx = cut * qx, fy = cut * qy, fz = cut * qz;
+        const real v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
+        const real vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
+        const real along = sx[c] * nx + sy[c] * ny + sz[c] * nz;
+        const real before = sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c];
+        const real px = sx[c] - along * nx, py = sy[c] - along * ny, pz = sz[c] - along * nz;
+        const real after = px * px + py * py + pz * pz;
+        const real turn = after > 0.0 ? sqrt(before / after) : 0.0;
+        const real ex = turn * px + vx * dt, ey = turn * py + vy * dt, ez = turn * pz + vz * dt;
+        const real ct = k.ct * damping;
+        const real qx = -k.kt * ex - ct * vx, qy = -k.kt * ey - ct * vy,
+                   qz = -k.kt * ez - ct * vz;
+        const real q = sqrt(qx * qx + qy * qy + qz * qz), limit = k.mu * fn;
+        const bool slides = q > limit;
+        const real cut = slides ? limit / q : 1.0;
+        const real fx = cut * qx, fy = cut * qy, fz = cut * qz;
         /* where it slides, the spring is what gives the force at the limit */
-        const double slack = kt > 0.0 ? 1.0 / kt : 0.0;
-        sx[c] = q > limit ? -(fx + ct * vx) * slack : ex;
-        sy[c] = q > limit ? -(fy + ct * vy) * slack : ey;
-        sz[c] = q > limit ? -(fz + ct * vz) * slack : ez;
+        sx[c] = slides ? -(fx + ct * vx) * k.slack : ex;
+        sy[c] = slides ? -(fy + ct * vy) * k.slack : ey;
+        sz[c] = slides ? -(fz + ct * vz) * k.slack : ez;
         t->fx[c] = fn * nx + fx;
         t->fy[c] = fn * ny + fy;
         t->fz[c] = fn * nz + fz;
-        t->mx[c] = t->my[c] = t->mz[c] = 0.0;
         t->fn[c] = fn;
-        t->energy[c] = 0.5 * k_n[p] * depth * depth +
-                       0.5 * kt * (sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c]);
+        t->kn[c] = k.kn;
+    }
+}
+
+void contact_forces(struct touch *t, real (*history)[TOUCH])
+{
+    if (materials == 1)
+        forces(t, history, true, constants[0]);
+    else
+        forces(t, history, false, constants[0]);
+}
+
+void contact_energy(struct touch *t, real (*history)[TOUCH])
+{
+    const real *const sx = history[0], *const sy = history[1], *const sz = history[2];
+    for (int c = 0; c < t->n; c++) {
+        const struct constants *const k = &constants[t->pair[c]];
+        const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
+        const double stretch = (double)(sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c]);
+        t->energy[c] = 0.5 * ((double)k->kn * depth * depth + (double)k->kt * stretch);
     }
 }
 

@@ -15,14 +15,18 @@ void contact_init(struct scene *s, const struct materials *m)
     (void)m;
 }
 
-void contact_forces(struct touch *t, double (*history)[TOUCH])
+void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
     (void)history;
-    for (int c = 0; c < t->n; c++) {
-        t->fx[c] = t->fy[c] = t->fz[c] = 0.0;
-        t->mx[c] = t->my[c] = t->mz[c] = 0.0;
-        t->fn[c] = t->energy[c] = 0.0;
-    }
+    for (int c = 0; c < t->n; c++)
+        t->fx[c] = t->fy[c] = t->fz[c] = t->fn[c] = t->kn[c] = 0.0;
+}
+
+void contact_energy(struct touch *t, real (*history)[TOUCH])
+{
+    (void)history;
+    for (int c = 0; c < t->n; c++)
+        t->energy[c] = 0.0;
 }
 
 double contact_duration(int a, int b, double m_eff, double r_eff, double v)

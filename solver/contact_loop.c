@@ -50,7 +50,7 @@ struct block {
     struct candidates c;
     struct touch t;
     struct levers l;
-    double history[HISTORY_MAX][TOUCH];
+    real history[HISTORY_MAX][TOUCH];
 };
 
 int contact_rows(void)
@@ -146,6 +146,12 @@ static void load_motion(const struct sim *s, struct block *b)
         t->wx[c] = w.x;
         t->wy[c] = w.y;
         t->wz[c] = w.z;
+        t->sx[c] = g->spin[i].x;
+        t->sy[c] = g->spin[i].y;
+        t->sz[c] = g->spin[i].z;
+        const double of_i = 1.0 / g->inv_inertia[i] + g->mass[i] * t->r_i[c] * t->r_i[c];
+        const double of_j = 1.0 / g->inv_inertia[j] + g->mass[j] * t->r_j[c] * t->r_j[c];
+        t->inertia[c] = wall ? of_i : 1.0 / (1.0 / of_i + 1.0 / of_j);
     }
 }
 
@@ -172,7 +178,12 @@ static void load_history(const struct neighbours *nb, struct block *b)
 
 static void apply_laws(struct block *b)
 {
-    double(*h)[TOUCH] = b->history;
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++) {
+        t->mx[c] = t->my[c] = t->mz[c] = 0.0;
+        t->broke[c] = 0;
+    }
+    real(*h)[TOUCH] = b->history;
     contact_forces(&b->t, h);
     h += contact_history;
     cohesion_forces(&b->t, h);
@@ -180,6 +191,14 @@ static void apply_laws(struct block *b)
     rolling_moments(&b->t, h);
     h += rolling_history;
     bond_forces(&b->t, h);
+    h = b->history;
+    contact_energy(&b->t, h);
+    h += contact_history;
+    cohesion_energy(&b->t, h);
+    h += cohesion_history;
+    rolling_energy(&b->t, h);
+    h += rolling_history;
+    bond_energy(&b->t, h);
 }
 
 /* Writes the records and the history; returns the next free record. */
@@ -231,6 +250,7 @@ static int work_block(struct sim *s, struct block *b, struct report *r, int next
 {
     b->t.n = b->c.n;
     b->t.dt = s->run.dt;
+    b->t.time = s->t;
     shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
     load_motion(s, b);
     load_history(&s->neighbours, b);

@@ -6,7 +6,7 @@
 
 struct law {
     void (*init)(struct scene *, const struct materials *);
-    void (*forces)(struct touch *, double (*)[TOUCH]);
+    void (*forces)(struct touch *, real (*)[TOUCH]);
     const struct key *keys;
     const int *history;
 };
@@ -85,7 +85,7 @@ static vec3 turn(vec3 a)
 static void check_no_pull(const struct law *law, const char *name)
 {
     static struct touch t;
-    static double h[HISTORY_MAX][TOUCH];
+    static real h[HISTORY_MAX][TOUCH];
     memset(h, 0, sizeof h);
     t.n = TOUCH;
     t.dt = 1e-7;
@@ -103,13 +103,13 @@ static void check_no_pull(const struct law *law, const char *name)
     check(pull >= -1e-12, "%s: never pulls (%g N)", name, pull);
 }
 
-/* Lane 0 and 77 hold one pair, lane 1 the same pair rotated; a path of 400 steps. */
+/* Lane 0 and the last hold one pair, lane 1 the same pair rotated; a path of 400 steps. */
 static void check_frame(const struct law *law, const char *name)
 {
     static struct touch t;
-    static double h[HISTORY_MAX][TOUCH];
+    static real h[HISTORY_MAX][TOUCH];
     memset(h, 0, sizeof h);
-    t.n = 78;
+    t.n = TOUCH;
     t.dt = 1e-6;
     double off = 0.0, largest = 0.0;
     bool lanes = true;
@@ -123,8 +123,8 @@ static void check_frame(const struct law *law, const char *name)
         law->forces(&t, h);
         off = fmax(off, v3_norm(v3_sub(force(&t, 1), turn(force(&t, 0)))));
         largest = fmax(largest, v3_norm(force(&t, 0)));
-        lanes = lanes && memcmp(&t.fx[0], &t.fx[77], sizeof(double)) == 0 &&
-                memcmp(&t.fz[0], &t.fz[77], sizeof(double)) == 0;
+        lanes = lanes && memcmp(&t.fx[0], &t.fx[TOUCH - 1], sizeof(double)) == 0 &&
+                memcmp(&t.fz[0], &t.fz[TOUCH - 1], sizeof(double)) == 0;
     }
     check(off <= 1e-11 * largest, "%s: the rotated pair feels the rotated force (%g of %g N)",
           name, off, largest);
@@ -136,7 +136,7 @@ static void check_frame(const struct law *law, const char *name)
 static void check_energy(const struct law *law, const char *name, double shear, double phase)
 {
     static struct touch t;
-    static double h[HISTORY_MAX][TOUCH];
+    static real h[HISTORY_MAX][TOUCH];
     memset(h, 0, sizeof h);
     t.n = 1;
     t.dt = 1e-7;

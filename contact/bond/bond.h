@@ -12,10 +12,12 @@
 
 extern const struct about bond_about;
 extern const struct key bond_keys[];
-extern const int bond_history;
+extern const int bond_history;    /* reals per contact */
+extern const unsigned bond_needs; /* TOUCH_... of touch.h */
 
 void bond_init(struct scene *s, const struct materials *m);
-void bond_forces(struct touch *t, double (*history)[TOUCH]);
-double bond_range(void); /* m */
+void bond_forces(struct touch *t, real (*history)[TOUCH]);
+void bond_energy(struct touch *t, real (*history)[TOUCH]); /* adds what it stores, J */
+double bond_range(void);                                   /* m */
 
 #endif

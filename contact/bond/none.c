@@ -8,6 +8,7 @@ const struct about bond_about = {.name = "none",
                                  .range = "always"};
 const struct key bond_keys[] = {{0}};
 const int bond_history = 0;
+const unsigned bond_needs = 0;
 
 void bond_init(struct scene *s, const struct materials *m)
 {
@@ -15,7 +16,13 @@ void bond_init(struct scene *s, const struct materials *m)
     (void)m;
 }
 
-void bond_forces(struct touch *t, double (*history)[TOUCH])
+void bond_forces(struct touch *t, real (*history)[TOUCH])
+{
+    (void)t;
+    (void)history;
+}
+
+void bond_energy(struct touch *t, real (*history)[TOUCH])
 {
     (void)t;
     (void)history;

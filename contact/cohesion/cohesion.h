@@ -11,10 +11,12 @@
 
 extern const struct about cohesion_about;
 extern const struct key cohesion_keys[];
-extern const int cohesion_history;
+extern const int cohesion_history;    /* reals per contact */
+extern const unsigned cohesion_needs; /* TOUCH_... of touch.h */
 
 void cohesion_init(struct scene *s, const struct materials *m);
-void cohesion_forces(struct touch *t, double (*history)[TOUCH]);
+void cohesion_forces(struct touch *t, real (*history)[TOUCH]);
+void cohesion_energy(struct touch *t, real (*history)[TOUCH]); /* adds what it stores, J */
 double cohesion_range(void); /* m, largest gap at which it acts; 0 if only in contact */
 
 #endif

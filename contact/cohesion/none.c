@@ -8,6 +8,7 @@ const struct about cohesion_about = {.name = "none",
                                      .range = "always"};
 const struct key cohesion_keys[] = {{0}};
 const int cohesion_history = 0;
+const unsigned cohesion_needs = 0;
 
 void cohesion_init(struct scene *s, const struct materials *m)
 {
@@ -15,7 +16,13 @@ void cohesion_init(struct scene *s, const struct materials *m)
     (void)m;
 }
 
-void cohesion_forces(struct touch *t, double (*history)[TOUCH])
+void cohesion_forces(struct touch *t, real (*history)[TOUCH])
+{
+    (void)t;
+    (void)history;
+}
+
+void cohesion_energy(struct touch *t, real (*history)[TOUCH])
 {
     (void)t;
     (void)history;

@@ -9,6 +9,7 @@ const struct about rolling_about = {.name = "none",
                                     .range = "always"};
 const struct key rolling_keys[] = {{0}};
 const int rolling_history = 0;
+const unsigned rolling_needs = 0;
 
 void rolling_init(struct scene *s, const struct materials *m)
 {
@@ -16,7 +17,13 @@ void rolling_init(struct scene *s, const struct materials *m)
     (void)m;
 }
 
-void rolling_moments(struct touch *t, double (*history)[TOUCH])
+void rolling_moments(struct touch *t, real (*history)[TOUCH])
+{
+    (void)t;
+    (void)history;
+}
+
+void rolling_energy(struct touch *t, real (*history)[TOUCH])
 {
     (void)t;
     (void)history;

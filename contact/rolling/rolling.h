@@ -11,9 +11,11 @@
 
 extern const struct about rolling_about;
 extern const struct key rolling_keys[];
-extern const int rolling_history;
+extern const int rolling_history;    /* reals per contact */
+extern const unsigned rolling_needs; /* TOUCH_... of touch.h */
 
 void rolling_init(struct scene *s, const struct materials *m);
-void rolling_moments(struct touch *t, double (*history)[TOUCH]);
+void rolling_moments(struct touch *t, real (*history)[TOUCH]);
+void rolling_energy(struct touch *t, real (*history)[TOUCH]); /* adds what it stores, J */
 
 #endif
