@@ -15,15 +15,17 @@
  * holds for all. */
 #include "drag.h"
 
-#include <math.h>
+#include "formulas.h"
 
 const struct about drag_about = {.name = "di_felice",
                                  .summary =
                                      "Di Felice's voidage function on Dallavalle's sphere",
-                                 .equation = "Fhat = (0.63 sqrt(Re) + 4.8)^2/24 eps^-chi, "
-                                             "chi = 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]",
+                                 .equation = "Fhat = (0.63 sqrt(Re) + 4.8)^2/24 eps^-chi, chi "
+                                             "= 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]",
                                  .source = "[DiFelice94]; [Dallavalle48]",
-                                 .range = "eps 0.4 to 1, 0.01 < Re < 10000"};
+                                 .range = "eps 0.4 to 1, Re < 1e4 (fitted above 0.01)"};
+const struct drag_limits drag_limits = {
+    .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .isolated = 0.96};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)
@@ -31,13 +33,13 @@ void drag_init(struct scene *s)
     (void)s;
 }
 
+void drag_prepare(struct drag_grain *grain)
+{
+    (void)grain;
+}
+
 double drag_factor(const struct drag_point *p)
 {
-    const double root = 0.63 * sqrt(p->re) + 4.8;
-    double chi = 3.7;
-    if (p->re > 1e-12) { /* below, the exponential is under 1e-39 */
-        const double x = 1.5 - log10(p->re);
-        chi -= 0.65 * exp(-0.5 * x * x);
-    }
-    return root * root / 24.0 * pow(p->eps, -chi);
+    const double chi = 3.7 - 0.65 * sphere_intermediate(p->re);
+    return sphere_dallavalle(p->re) * pow(p->eps, -chi);
 }

@@ -34,6 +34,7 @@ struct layered_column {
     double *eps, *d; /* per layer: fluid fraction; m, diameter */
     double lost;     /* m, the loss of head asked for; of the root */
     struct table *table;
+    const struct drag_grain *grain; /* of the first species, for all */
 };
 
 enum { COLUMNS = 6 };
@@ -84,6 +85,7 @@ void reference_create(struct sim *s, struct scene *scene)
     p->gravity = g > 0.0 ? g : 9.81;
     p->rho = s->fluid.rho;
     p->mu = s->fluid.mu;
+    p->grain = s->coupling.drag_of.kind;
     p->n = s->grid.n[2];
     p->h = s->grid.h[2];
     p->eps = xalloc((size_t)p->n, sizeof *p->eps);
@@ -120,7 +122,7 @@ static void diameters(const struct sim *s, double *d)
 /* Loss of head per length of layer k at flux u, with the sign of u. */
 static double slope(const struct layered_column *p, int k, double u)
 {
-    const struct bed_fluid f = {p->d[k], p->rho, p->mu};
+    const struct bed_fluid f = {p->d[k], p->rho, p->mu, p->grain};
     const double loss = p->d[k] > 0.0 ? bed_law(&f, p->eps[k], fabs(u)) : 0.0;
     return copysign(loss, u) / (p->rho * p->gravity);
 }

@@ -125,7 +125,8 @@ void reference_create(struct sim *s, struct scene *scene)
     p->layers = s->grid.n[p->axis];
     p->h = s->grid.h[p->axis];
     p->area = s->domain.size[(p->axis + 1) % 3] * s->domain.size[(p->axis + 2) % 3];
-    p->fluid = (struct bed_fluid){bed_diameter(s), s->fluid.rho, s->fluid.mu};
+    p->fluid = (struct bed_fluid){bed_diameter(s), s->fluid.rho, s->fluid.mu,
+                                  s->coupling.drag_of.kind};
     p->solid = bed_solid(s) / p->area;
     p->weight = bed_weight(s) / p->area;
     p->n = s->flow.steps;

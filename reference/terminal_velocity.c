@@ -38,10 +38,12 @@ struct terminal_velocity {
     vec3 pull; /* N, weight less buoyancy */
     vec3 down; /* unit vector along it */
     bool started, ended;
-    double t, v[3];              /* s, m/s: the exact solution, at the time of the last step */
-    double speed;                /* m/s, simulated, along `down`, then */
-    double next;                 /* s, of the next row */
-    double (*factor)(double re); /* of the law whose balance is sought */
+    double t, v[3]; /* s, m/s: the exact solution, at the time of the last step */
+    double speed;   /* m/s, simulated, along `down`, then */
+    double next;    /* s, of the next row */
+    const struct drag_grain *grain;
+    double (*factor)(const struct terminal_velocity *p, double re); /* of the law whose balance
+                                                                       is sought */
     gsl_odeiv2_driver *driver;
     gsl_odeiv2_system system;
     struct table *table;
@@ -64,19 +66,22 @@ static const struct table pattern = {
                .n_curves = 2,
                .curve = {{"simulated", "points", "simulated"}, {"exact", "line", "exact"}}}};
 
-static double factor_run(double re)
+static double factor_run(const struct terminal_velocity *p, double re)
 {
-    return drag_factor(&(struct drag_point){.eps = 1.0, .re = re});
+    return drag_factor(
+        &(struct drag_point){.eps = 1.0, .re = re, .d = p->d, .y = 1.0, .grain = p->grain});
 }
 
-static double factor_stokes(double re)
+static double factor_stokes(const struct terminal_velocity *p, double re)
 {
+    (void)p;
     (void)re;
     return 1.0;
 }
 
-static double factor_schiller_naumann(double re)
+static double factor_schiller_naumann(const struct terminal_velocity *p, double re)
 {
+    (void)p;
     return re < 1000.0 ? 1.0 + 0.15 * pow(re, 0.687) : 0.44 / 24.0 * re;
 }
 
@@ -84,12 +89,13 @@ static double factor_schiller_naumann(double re)
 static double balance(double v, void *params)
 {
     const struct terminal_velocity *const p = params;
-    const double factor = p->factor(p->rho * v * p->d / p->mu);
+    const double factor = p->factor(p, p->rho * v * p->d / p->mu);
     return 3.0 * pi * p->mu * p->d * factor * v - v3_norm(p->pull);
 }
 
 /* m/s; the speed at which a law's drag carries the pull. NAN if there is none. */
-static double terminal(struct terminal_velocity *p, double (*factor)(double re))
+static double terminal(struct terminal_velocity *p,
+                       double (*factor)(const struct terminal_velocity *, double))
 {
     double hi = 1e-12, v = (double)NAN;
     p->factor = factor;
@@ -119,7 +125,7 @@ static int acceleration(double t, const double v[], double dvdt[], void *params)
 {
     const struct terminal_velocity *const p = params;
     const double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    const double kappa = 3.0 * pi * p->mu * p->d * factor_run(p->rho * speed * p->d / p->mu);
+    const double kappa = 3.0 * pi * p->mu * p->d * factor_run(p, p->rho * speed * p->d / p->mu);
     (void)t;
     dvdt[0] = (p->pull.x - kappa * v[0]) / p->mass;
     dvdt[1] = (p->pull.y - kappa * v[1]) / p->mass;
@@ -153,14 +159,17 @@ void reference_create(struct sim *s, struct scene *scene)
     if (!s->fluid.exists || (scene_errors(scene) == 0 && s->grains.n < 1))
         scene_error(scene, "modules", NULL, "reference",
                     "terminal_velocity needs a fluid and a grain");
-    else if (!(factor_run(1.0) > 0.0))
-        scene_error(scene, "modules", NULL, "drag", "terminal_velocity needs a drag law");
     if (scene_errors(scene) > 0)
         return;
     p->mass = s->grains.mass[0];
     p->d = s->grains.species[s->grains.kind[0]].diameter;
     p->rho = s->fluid.rho;
     p->mu = s->fluid.mu;
+    p->grain = &s->coupling.drag_of.kind[s->grains.kind[0]];
+    if (!(factor_run(p, 1.0) > 0.0)) {
+        scene_error(scene, "modules", NULL, "drag", "terminal_velocity needs a drag law");
+        return;
+    }
     const double buoyant = s->coupling.buoyancy ? p->rho * s->grains.volume[0] : 0.0;
     p->pull = v3_scale(p->mass - buoyant, s->domain.gravity);
     const double pull = v3_norm(p->pull);

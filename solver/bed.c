@@ -106,7 +106,8 @@ double bed_kozeny_carman(const struct bed_fluid *f, double eps, double u, double
 
 double bed_law(const struct bed_fluid *f, double eps, double u)
 {
-    const struct drag_point p = {.eps = eps, .re = f->rho * u * f->d / f->mu};
+    const struct drag_point p = {
+        .eps = eps, .re = f->rho * u * f->d / f->mu, .d = f->d, .y = 1.0, .grain = f->grain};
     const double phi = 1.0 - eps;
     return phi > 0.0 ? 18.0 * f->mu * phi * drag_factor(&p) * u / (eps * f->d * f->d) : 0.0;
 }

@@ -6,12 +6,14 @@
 #ifndef BED_H
 #define BED_H
 
+struct drag_grain;
 struct sim;
 
 /* What a law needs besides porosity and velocity. */
 struct bed_fluid {
-    double d;       /* m, diameter */
-    double rho, mu; /* kg/m3, Pa s */
+    double d;                       /* m, diameter */
+    double rho, mu;                 /* kg/m3, Pa s */
+    const struct drag_grain *grain; /* for bed_law: what its grains are */
 };
 
 /* Mean of a field of cells over each plane across `axis`; out[0..n-1] from the low side. */

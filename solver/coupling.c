@@ -34,6 +34,7 @@ void coupling_read(struct sim *s, struct scene *scene)
     c->buoyancy = scene_choice(scene, "coupling", NULL, "buoyancy") == 1;
     c->eps_min = scene_real(scene, "coupling", NULL, "porosity_min");
     drag_init(scene);
+    drag_grains_read(s, scene);
     porosity_init(scene);
 }
 
@@ -53,6 +54,7 @@ void coupling_create(struct sim *s)
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);
     c->eps = grid_field(&s->grid);
+    drag_grains_create(s);
     for (int a = 0; a < 3; a++) {
         static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
                                                {"drag_velocity_y", "drag_swing_y"},
@@ -89,6 +91,7 @@ void coupling_free(struct sim *s)
                          c->vel_old,  c->pos_load, c->eps,   c->slack};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
+    drag_grains_free(s);
     for (int a = 0; a < 3; a++) {
         xfree(c->K[a]);
         xfree(c->KV[a]);
@@ -187,6 +190,7 @@ void coupling_volume(struct sim *s)
         c->n_shares[i] =
             porosity_shares(g, &s->domain, &s->grains, i, &c->shares[(size_t)i * c->reach]);
     spread_volume(s, c->K[0]);
+    drag_grains_sauter(s, c->K[0]);
     fluid_fraction(s);
     memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
     if (c->ways == 2)

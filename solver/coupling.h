@@ -4,7 +4,7 @@
  *   eps_c  = 1 - sum_p w_pc V_p / V                         fluid fraction
  *   eps_f  = (eps_lo + eps_hi)/2                            on a face (boundary: the cell
  * inside) U_c    = (eps_f u_f of low face + of high face)/2       superficial velocity, each
- * direction u_c    = U_c / eps_c kappa_pc = drag_kappa(eps_c, |u_c - v_p|, d_p) Each half cell
+ * direction u_c    = U_c / eps_c kappa_pc = drag_kappa at eps_c, |u_c - v_p|, d_p Each half cell
  * passes its share to the face beside it, so that on a face (volume V inside, V/2 on the
  * boundary) K_c    = sum_p w_pc kappa'_pc / eps_c^2 B_f    = eps_f^2 (K_lo + K_hi)/2 V / V_f
  * drag coefficient S_f    = the same with kappa'_pc v'_p so the resistance to the superficial
@@ -29,6 +29,7 @@
 #ifndef COUPLING_H
 #define COUPLING_H
 
+#include "drag_grains.h"
 #include "grid.h"
 #include "../porosity/porosity.h"
 
@@ -44,6 +45,7 @@ struct coupling {
     int *n_shares;                             /* per grain */
     struct share *shares;                      /* n x reach */
     double *kappa;                             /* n x reach, kg/s */
+    struct drag_grains drag_of;                /* the grains as the drag law sees them */
     vec3 *slack;          /* 1/(1 + theta) per direction: kappa' over kappa */
     vec3 *drag;           /* N per grain, the last drag force (a grain field) */
     vec3 *vel_old;        /* m/s at the last fluid step (a grain field) */

@@ -55,21 +55,28 @@ static vec3 superficial(const struct sim *s, int at)
               0.5 * (u[2][at] + u[2][at + s->grid.s[2]]));
 }
 
-/* kappa, 1/(1 + theta) and v' of one grain; returns its largest theta. */
-static double grain_drag(struct sim *s, int i)
+/* kappa, 1/(1 + theta) and v' of one grain; returns its largest theta. It is `outside` where
+ * the law does not hold in a cell that it has a share of. */
+static double grain_drag(struct sim *s, int i, bool *outside)
 {
     struct coupling *const c = &s->coupling;
     const struct grains *const g = &s->grains;
     const struct share *const w = &c->shares[(size_t)i * c->reach];
     double *const kappa = &c->kappa[(size_t)i * c->reach];
-    const double diameter = cbrt(6.0 / 3.14159265358979323846 * g->volume[i]);
+    struct drag_point p = {
+        .d = drag_grains_diameter(s, i), .y = 1.0, .grain = &c->drag_of.kind[g->kind[i]]};
     double theta[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < c->n_shares[i]; k++) {
         const int at = w[k].cell;
         const double eps = c->eps[at];
         const vec3 u = v3_scale(1.0 / eps, superficial(s, at));
-        kappa[k] =
-            drag_kappa(eps, v3_norm(v3_sub(u, g->vel[i])), diameter, s->fluid.rho, s->fluid.mu);
+        p.eps = eps;
+        p.re =
+            drag_reynolds(eps, v3_norm(v3_sub(u, g->vel[i])), p.d, s->fluid.rho, s->fluid.mu);
+        if (c->drag_of.sauter)
+            p.y = p.d / c->drag_of.sauter[at];
+        kappa[k] = drag_kappa(&p, s->fluid.mu);
+        *outside = *outside || drag_outside(&p);
         for (int a = 0; a < 3; a++)
             theta[a] += w[k].weight * kappa[k] * c->M[a][at] / (eps * eps);
     }
@@ -141,11 +148,18 @@ void coupling_drag(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     double relaxation = 0.0;
+    int n_outside = 0;
     drag_velocities(s);
-#pragma omp parallel for schedule(dynamic, 64) reduction(max : relaxation)
-    for (int i = 0; i < s->grains.n; i++)
-        relaxation = fmax(relaxation, grain_drag(s, i));
+#pragma omp parallel for schedule(dynamic, 64) reduction(max : relaxation)                     \
+    reduction(+ : n_outside)
+    for (int i = 0; i < s->grains.n; i++) {
+        bool outside = false;
+        relaxation = fmax(relaxation, grain_drag(s, i, &outside));
+        n_outside += outside;
+    }
     c->relaxation = relaxation;
+    c->drag_of.outside = n_outside;
+    drag_grains_warn(s);
     if (!c->implicit && relaxation > 2.0)
         die(EXIT_UNSTABLE,
             "explicit drag is unstable at t = %.9g s: fluid.dt is %.3g of a grain's relaxation "

@@ -110,8 +110,14 @@ static void relaxation_lines(const struct sim *s, struct feasibility *f)
         if (i < 0)
             continue;
         const double speed = flow_most(&s->flow) / 0.4;
-        const double kappa =
-            drag_kappa(0.4, speed, s->grains.species[k].diameter, s->fluid.rho, s->fluid.mu);
+        const double d = drag_grains_diameter(s, i);
+        const struct drag_point p = {
+            .eps = 0.4,
+            .re = drag_reynolds(0.4, speed, d, s->fluid.rho, s->fluid.mu),
+            .d = d,
+            .y = 1.0,
+            .grain = &s->coupling.drag_of.kind[k]};
+        const double kappa = drag_kappa(&p, s->fluid.mu);
         if (!(kappa > 0.0))
             continue;
         snprintf(name, sizeof name, "drag relaxation, %.32s", s->grains.species[k].name);

@@ -160,6 +160,7 @@ static int print_keys(const char *program)
     keys_print(stdout, "\nwalls", wall_keys);
     keys_print(stdout, "\nwith a fluid", flow_keys);
     keys_print(stdout, "", coupling_keys);
+    keys_print(stdout, "", drag_grains_keys);
     visit_answers(program, print_answer_keys);
     return EXIT_GOOD;
 }

@@ -1,0 +1,36 @@
+/* drag/turton_levenspiel.c - Turton and Levenspiel's sphere [TurtonLevenspiel86].
+ *
+ *   C_D  = 24/Re (1 + 0.173 Re^0.657) + 0.413/(1 + 16300 Re^-1.09)
+ *   Fhat = C_D Re/24
+ *
+ * There is no voidage factor: the slip is the superficial one, and neighbours are not felt.
+ * For a bed or a suspension take a law that has one. */
+#include "drag.h"
+
+#include <math.h>
+
+const struct about drag_about = {
+    .name = "turton_levenspiel",
+    .summary = "Turton and Levenspiel's isolated sphere",
+    .equation = "Fhat = 1 + 0.173 Re^0.657 + (0.413/24) Re/(1 + 16300 Re^-1.09)",
+    .source = "[TurtonLevenspiel86]",
+    .range = "one sphere on its own (eps above 0.99), Re < 2e5"};
+const struct drag_limits drag_limits = {
+    .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
+const struct key drag_keys[] = {{0}};
+
+void drag_init(struct scene *s)
+{
+    (void)s;
+}
+
+void drag_prepare(struct drag_grain *grain)
+{
+    (void)grain;
+}
+
+double drag_factor(const struct drag_point *p)
+{
+    const double re = p->re, power = pow(re, 1.09);
+    return 1.0 + 0.173 * pow(re, 0.657) + 0.413 / 24.0 * re * power / (power + 16300.0);
+}
