@@ -49,6 +49,7 @@ struct drag_limits {
     bool per_solid;          /* re_max is of Re/(1 - eps) */
     bool shape;              /* it reads the numbers of shape; others take grains for spheres */
     bool sauter;             /* it reads y */
+    double jump;             /* largest relative jump of Fhat in this range, 0: continuous */
     double isolated;         /* Fhat of a sphere at eps = 1 as Re -> 0; 0: the law has none */
 };
 

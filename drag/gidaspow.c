@@ -20,7 +20,7 @@ const struct about drag_about = {
     .source = "[Gidaspow94]; [Ergun52]; [WenYu66]",
     .range = "eps 0.35 to 1, Re/(1-eps) < 2500 in beds"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.35, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
+    .eps_min = 0.35, .eps_max = 1.0, .re_max = 2e5, .jump = 0.7325, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

@@ -16,8 +16,11 @@ const struct about drag_about = {
     .equation = "Fhat = w WenYu + (1-w) Ergun, w = 1/2 + atan[262.5 (eps - 0.8)]/pi",
     .source = "[HuilinGidaspow03]; [Ergun52]; [WenYu66]",
     .range = "eps 0.35 to 1, Re/(1-eps) < 2500 in beds"};
-const struct drag_limits drag_limits = {
-    .eps_min = 0.35, .eps_max = 1.0, .re_max = 2e5, .isolated = 0.99393826};
+const struct drag_limits drag_limits = {.eps_min = 0.35,
+                                        .eps_max = 1.0,
+                                        .re_max = 2e5,
+                                        .jump = 0.004,
+                                        .isolated = 0.99393768763743};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

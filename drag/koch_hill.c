@@ -7,7 +7,8 @@
  *     = F2 + F3 R     else
  *   F0, F2 = (1-w) [1 + 3 sqrt(phi/2) + (135/64) phi ln phi + a phi]
  *            /[1 + 0.681 phi - b phi^2 + c phi^3] + w 10 phi/eps^3;   10 phi/eps^3, phi >= 0.4
- *            w = exp[-10 (0.4-phi)/phi];  a, b, c = 17.14, 8.48, 8.16 (F0), 17.89, 11.03, 15.41 (F2)
+ *            w = exp[-10 (0.4-phi)/phi];  a, b, c = 17.14, 8.48, 8.16 (F0),
+ *            17.89, 11.03, 15.41 (F2)
  *   F1 = sqrt(2/phi)/40, phi <= 0.1;  0.11 + 5.1e-4 exp(11.6 phi) above
  *   F3 = 0.9351 phi + 0.03667, phi < 0.0953;  0.0673 + 0.212 phi + 0.0232/eps^5 above
  *
@@ -43,7 +44,7 @@ const struct about drag_about = {
     .source = "[BenyahiaSyamlalOBrien06]; [HillKochLadd01]",
     .range = "eps 0.36 to 1, Re < 200"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.36, .eps_max = 1.0, .re_max = 200.0, .isolated = 1.0};
+    .eps_min = 0.36, .eps_max = 1.0, .re_max = 200.0, .jump = 0.2183, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

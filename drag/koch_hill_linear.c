@@ -7,7 +7,7 @@
  *   F3   = 0.0673 + 0.212 phi + 0.0232/eps^5
  *
  * The total force F0 + F3 Re/2, with the mean pressure gradient, times eps. The quadratic
- * regime of small Re (F1) is left out; koch_hill has it. F0 jumps by 2 % at phi = 0.4.
+ * regime of small Re (F1) is left out; koch_hill has it. F0 jumps by 1 % at phi = 0.4.
  *
  * The review prints 0.5 F3 Re^2 for 0.5 F3 Re, and F3 with (1-phi)^5 for (1-phi)^-5 (0.15 for
  * 0.45 at phi = 0.4), and calls the dimensionless force F_d. */
@@ -29,7 +29,7 @@ const struct about drag_about = {.name = "koch_hill_linear",
                                  .source = "[KochHill01]",
                                  .range = "eps 0.36 to 1, Re < 100"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.36, .eps_max = 1.0, .re_max = 100.0, .isolated = 1.0};
+    .eps_min = 0.36, .eps_max = 1.0, .re_max = 100.0, .jump = 0.0104, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

@@ -19,7 +19,7 @@ const struct about drag_about = {.name = "schiller_naumann",
                                  .source = "[SchillerNaumann35]",
                                  .range = "one sphere on its own (eps above 0.99), Re < 2e5"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
+    .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .jump = 0.0039, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

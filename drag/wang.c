@@ -22,8 +22,11 @@ const struct about drag_about = {
                 "Re^0.153, Psi = sphericity/circularity",
     .source = "[WangZhouYang19]; [DiFelice94]",
     .range = "eps 0.4 to 1, 1 < Re < 1000"};
-const struct drag_limits drag_limits = {
-    .eps_min = 0.4, .eps_max = 1.0, .re_max = 1000.0, .shape = true, .isolated = 0.92834188};
+const struct drag_limits drag_limits = {.eps_min = 0.4,
+                                        .eps_max = 1.0,
+                                        .re_max = 1000.0,
+                                        .shape = true,
+                                        .isolated = 0.9283314025971};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

@@ -17,7 +17,7 @@ const struct about drag_about = {
     .source = "[WenYu66]; [SchillerNaumann35]",
     .range = "eps 0.7 to 1 (fitted above 0.8), Re < 2e5"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.7, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
+    .eps_min = 0.7, .eps_max = 1.0, .re_max = 2e5, .jump = 0.0039, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

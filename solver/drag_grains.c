@@ -45,8 +45,7 @@ void drag_grains_read(struct sim *s, struct scene *scene)
         struct drag_grain *const d = &g->kind[k];
         d->sphericity = shape_number(scene, names[k], "sphericity", 1.0);
         d->crosswise = shape_number(scene, names[k], "crosswise_sphericity", 1.0);
-        d->lengthwise =
-            shape_number(scene, names[k], "lengthwise_sphericity", d->crosswise);
+        d->lengthwise = shape_number(scene, names[k], "lengthwise_sphericity", d->crosswise);
         d->circularity = shape_number(scene, names[k], "circularity", 1.0);
         d->density_ratio = scene_real(scene, "grains", names[k], "density") / s->fluid.rho;
     }

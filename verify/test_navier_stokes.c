@@ -170,10 +170,19 @@ static void check_layers(void)
         "[flow]\nvelocity = 4 mm/s\n[run]\nend = 1 s\n");
     for (int k = 0; k < 40; k++)
         step(s);
-    const double coarse = drag_kappa(eps, U / eps, 2e-3, water, viscosity) / 8e-9;
-    const double fine = drag_kappa(eps, U / eps, 1e-3, water, viscosity) / 1e-9;
-    check_rel(fluid_side_pressure(s, Z_LO), (6e-3 * coarse + 4e-3 * fine) * U / (eps * eps),
-              1e-9, "two layers: pressure drop, Pa");
+    double per_volume[2]; /* kappa over d^3 of coarse and fine */
+    for (int i = 0; i < 2; i++) {
+        const double d = i ? 1e-3 : 2e-3;
+        const struct drag_point p = {.eps = eps,
+                                     .re = drag_reynolds(eps, U / eps, d, water, viscosity),
+                                     .d = d,
+                                     .y = 1.0,
+                                     .grain = &s->coupling.drag_of.kind[i]};
+        per_volume[i] = drag_kappa(&p, viscosity) / (d * d * d);
+    }
+    check_rel(fluid_side_pressure(s, Z_LO),
+              (6e-3 * per_volume[0] + 4e-3 * per_volume[1]) * U / (eps * eps), 1e-9,
+              "two layers: pressure drop, Pa");
     sim_free(s);
 }
 

@@ -1,0 +1,135 @@
+/* verify/drag_laws.h - every law of drag, loaded and ready to call; for tests, figures. */
+#ifndef DRAG_LAWS_H
+#define DRAG_LAWS_H
+
+#include "../drag/drag.h"
+#include "answers.h"
+
+static const double law_d = 1.237e-3; /* m, of the grain in every call */
+
+struct law {
+    char name[64];
+    double (*factor)(const struct drag_point *p);
+    void (*init)(struct scene *s);
+    void (*prepare)(struct drag_grain *grain);
+    const struct key *keys;
+    const struct about *about;
+    const struct drag_limits *limits;
+    struct drag_grain grain;
+    double y;
+};
+
+/* The symbols of an answer, and a sphere that falls in a liquid. */
+static inline bool law_load(struct law *law, const char *name, void *answer)
+{
+    *law = (struct law){.y = 1.0,
+                        .grain = {.sphericity = 1.0,
+                                  .crosswise = 1.0,
+                                  .lengthwise = 1.0,
+                                  .circularity = 1.0,
+                                  .density_ratio = 2.65,
+                                  .d10 = 0.737e-3}};
+    snprintf(law->name, sizeof law->name, "%s", name);
+    return answers_symbol(answer, "drag_factor", &law->factor, sizeof law->factor) &&
+           answers_symbol(answer, "drag_init", &law->init, sizeof law->init) &&
+           answers_symbol(answer, "drag_prepare", &law->prepare, sizeof law->prepare) &&
+           answers_symbol(answer, "drag_keys", &law->keys, sizeof law->keys) &&
+           answers_symbol(answer, "drag_about", &law->about, sizeof law->about) &&
+           answers_symbol(answer, "drag_limits", &law->limits, sizeof law->limits);
+}
+
+/* Reads the law's keys, with their standard values or the overrides; keys that must be given and
+ * are not get a permeability (the one kind that there is). */
+static inline void law_init(struct law *law, int n, char **overrides)
+{
+    char *all[16];
+    int m = 0;
+    for (const struct key *k = law->keys; k->section; k++)
+        if (!k->standard)
+            all[m++] = xprintf("%s.%s=%s %s", k->section, k->name, "1e-9", k->unit);
+    const int added = m;
+    for (int i = 0; i < n; i++)
+        all[m++] = overrides[i]; /* later ones win */
+    struct scene *const s = scene_load(NULL, m, all);
+    scene_declare(s, law->keys);
+    law->init(s);
+    check(scene_errors(s) == 0, "%s: its keys read without error", law->name);
+    scene_free(s);
+    for (int i = 0; i < added; i++)
+        xfree(all[i]);
+    law->prepare(&law->grain);
+}
+
+/* The law of grains of another shape. */
+static inline struct law law_shaped(const struct law *law, double sphericity, double crosswise)
+{
+    struct law other = *law;
+    other.grain.sphericity = sphericity;
+    other.grain.crosswise = other.grain.lengthwise = crosswise;
+    other.prepare(&other.grain);
+    return other;
+}
+
+static inline double law_factor(const struct law *law, double eps, double re)
+{
+    return law->factor(&(struct drag_point){
+        .eps = eps, .re = re, .d = law_d, .y = law->y, .grain = &law->grain});
+}
+
+/* m2; permeability that the law implies for a bed of such grains. */
+static inline double law_permeability(const struct law *law, double eps, double re)
+{
+    return eps * law_d * law_d / (18.0 * (1.0 - eps) * law_factor(law, eps, re));
+}
+
+static inline bool law_holds(const struct law *law, double eps, double re)
+{
+    const struct drag_limits *const l = law->limits;
+    return eps >= l->eps_min && eps <= l->eps_max &&
+           re <= (l->per_solid ? l->re_max * (1.0 - eps) : l->re_max);
+}
+
+struct law_jump {
+    double size, eps, re; /* relative; where */
+};
+
+/* What remains of the change of Fhat between two points when they close in on it. */
+static inline struct law_jump law_jump_between(const struct law *law, double eps0, double re0,
+                                               double eps1, double re1)
+{
+    double f0 = law_factor(law, eps0, re0), f1 = law_factor(law, eps1, re1);
+    for (int i = 0; i < 44; i++) {
+        const double eps = 0.5 * (eps0 + eps1), re = 0.5 * (re0 + re1);
+        const double f = law_factor(law, eps, re);
+        if (fabs(f - f0) > fabs(f - f1)) {
+            eps1 = eps;
+            re1 = re;
+            f1 = f;
+        } else {
+            eps0 = eps;
+            re0 = re;
+            f0 = f;
+        }
+    }
+    return (struct law_jump){fabs(f1 - f0) / fmax(f0, f1), eps0, re0};
+}
+
+/* The largest jump for eps from 0.3 to 1, Re from 1e-8 to 1e6, or of that where the law holds. */
+static inline struct law_jump law_largest_jump(const struct law *law, bool in_range)
+{
+    struct law_jump worst = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 100; i++)
+        for (int j = 0; j < 140; j++) {
+            const double eps = 0.3 + 0.007 * i, next = fmin(eps + 0.007, 1.0);
+            const double re = pow(10.0, -8.0 + 0.1 * j), more = re * pow(10.0, 0.1);
+            const struct law_jump one = law_jump_between(law, eps, re, eps, more);
+            const struct law_jump two = law_jump_between(law, eps, re, next, re);
+            if (one.size > worst.size && (!in_range || law_holds(law, one.eps, one.re)))
+                worst = one;
+            if (two.size > worst.size && (!in_range || law_holds(law, two.eps, two.re)))
+                worst = two;
+        }
+    return worst;
+}
+
+#endif
