@@ -25,7 +25,7 @@ BUILD := build/$(MODE)
 CC := gcc
 WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion \
         -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wcast-qual -Wwrite-strings \
-        -Wundef -Wvla -Wno-unknown-pragmas -Wno-missing-field-initializers
+        -Wundef -Wvla -Wno-psabi -Wno-unknown-pragmas -Wno-missing-field-initializers
 BASE := -std=c11 -D_POSIX_C_SOURCE=200809L -fopenmp -ffp-contract=off -fno-math-errno \
         -fno-trapping-math -fPIC
 FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -g

@@ -1,89 +1,80 @@
-/* poisson.c - the direct solve [SwarztrauberSweet73], [Costa18]: FFTW's transforms of the kinds
- * that the sides ask for diagonalise x and y; what is left is a tridiagonal system in z for
- * each mode, swept for all modes of a line at once. Periodic z: the wrap-around by Sherman and
- * Morrison.
- *
- *   sides                      forward / backward    eigenvalue of mode k       norm
- *   periodic                   R2HC / HC2R           4 sin^2(pi k/n)/h^2        n
- *   Neumann-Neumann            REDFT10 / REDFT01     4 sin^2(pi k/2n)/h^2       2n
- *   Dirichlet-Dirichlet        RODFT10 / RODFT01     with k + 1                 2n
- *   Neumann-Dirichlet          REDFT11               with k + 1/2               2n
- *   Dirichlet-Neumann          RODFT11               with k + 1/2               2n
- *
- * Plans are made without timing (FFTW_ESTIMATE) for one thread; threads take planes. So the
- * bits do not depend on the number of threads. */
-#include "poisson.h"
+/* poisson.c - the direct solve [SwarztrauberSweet73], [Costa18]: transforms diagonalise x and
+ * y; what is left is a tridiagonal system in z for each mode, swept for many modes at once
+ * (poisson_body.h). Here: set-up, and the solve in double precision. */
+#include "poisson_plan.h"
 
-#include <fftw3.h>
-#include <string.h>
+#include <omp.h>
 
-#define PI 3.14159265358979323846
-
-struct poisson {
-    const struct grid *g;
-    enum poisson_side side[6];
-    fftw_plan forward, backward; /* of one plane */
-    double *work;                /* nz planes of ny x nx */
-    double *pivot;               /* the same size: upper factors of the sweeps */
-    double *wrap;                /* the same size, if z is periodic */
-    double *lambda;              /* ny x nx */
-    double norm;
-};
+#define REAL  double
+#define INDEX long
+static inline const double *table_of(const struct transform *t)
+{
+    return t->table;
+}
+#include "poisson_body.h"
 
 static bool dirichlet(const struct poisson *p, int side)
 {
     return p->side[side] == POISSON_DIRICHLET;
 }
 
-static fftw_r2r_kind kind_of(const struct poisson *p, int a, bool back)
+static double eigenvalue(const struct poisson *p, int axis, const struct transform *t, int m)
 {
-    const bool lo = dirichlet(p, 2 * a), hi = dirichlet(p, 2 * a + 1);
-    if (p->side[2 * a] == POISSON_PERIODIC)
-        return back ? FFTW_HC2R : FFTW_R2HC;
-    if (!lo && !hi)
-        return back ? FFTW_REDFT01 : FFTW_REDFT10;
-    if (lo && hi)
-        return back ? FFTW_RODFT01 : FFTW_RODFT10;
-    return lo ? FFTW_RODFT11 : FFTW_REDFT11;
+    const double h = p->g->h[axis];
+    const double alone = (double)(2 * dirichlet(p, 2 * axis) + 2 * dirichlet(p, 2 * axis + 1));
+    return (t ? t->eigenvalue[m] : alone) / (h * h);
 }
 
-static double eigenvalue(const struct poisson *p, int a, int k)
+/* lambda, with rows padded to a whole number of double packs of each precision. */
+static void pad_lambda(struct poisson *p)
 {
-    const int n = p->g->n[a];
-    const bool lo = dirichlet(p, 2 * a), hi = dirichlet(p, 2 * a + 1);
-    double x = PI * k / n;
-    if (p->side[2 * a] == POISSON_PERIODIC)
-        x = 2.0 * PI * k / n;
-    else if (lo && hi)
-        x = PI * (k + 1) / n;
-    else if (lo || hi)
-        x = PI * (k + 0.5) / n;
-    const double s = 2.0 * sin(0.5 * x) / p->g->h[a];
-    return s * s;
+    const int nx = p->n[0], ny = p->n[1];
+    for (int single = 0; single < 2; single++) {
+        const int lines = single ? 32 : 16, width = (nx + lines - 1) / lines * lines;
+        double *const wide = xalloc((size_t)width * ny, sizeof *wide);
+        float *const narrow = xalloc((size_t)width * ny, sizeof *narrow);
+        for (int j = 0; j < ny; j++)
+            for (int i = 0; i < width; i++) {
+                const double one = 1.0 / (p->g->h[0] * p->g->h[0]);
+                const double x = i < nx ? p->lambda[i + (size_t)nx * j] : one;
+                wide[i + (size_t)width * j] = x;
+                narrow[i + (size_t)width * j] = (float)x;
+            }
+        p->width[single] = width;
+        p->lambda_wide[single] = single ? (void *)narrow : (void *)wide;
+        xfree(single ? (void *)wide : (void *)narrow);
+    }
 }
 
 struct poisson *poisson_create(const struct grid *g, const enum poisson_side side[6])
 {
     struct poisson *const p = xalloc(1, sizeof *p);
-    const int nx = g->n[0], ny = g->n[1], nz = g->n[2];
-    const size_t plane = (size_t)nx * ny;
+    const int a = g->n[0] == 1 && g->n[1] > 1 ? 1 : 0, axis[3] = {a, 1 - a, 2};
     p->g = g;
-    memcpy(p->side, side, sizeof p->side);
-    p->work = xalloc(plane * nz, sizeof(double));
-    p->pivot = xalloc(plane * nz, sizeof(double));
-    if (side[Z_LO] == POISSON_PERIODIC)
-        p->wrap = xalloc(plane * nz, sizeof(double));
-    p->lambda = xalloc(plane, sizeof(double));
-    p->norm = (side[X_LO] == POISSON_PERIODIC ? nx : 2.0 * nx) *
-              (side[Y_LO] == POISSON_PERIODIC ? ny : 2.0 * ny);
+    p->start = cell(g, 1, 1, 1);
+    p->norm = 1.0;
+    for (int i = 0; i < 6; i++)
+        p->side[i] = side[i];
+    for (int i = 0; i < 3; i++) {
+        p->n[i] = g->n[axis[i]];
+        p->stride[i] = g->s[axis[i]];
+        if (i < 2 && p->n[i] > 1) {
+            p->t[i] = transform_create(p->n[i], side[2 * axis[i]], side[2 * axis[i] + 1]);
+            p->norm *= p->t[i]->norm;
+        }
+    }
+    const int nx = p->n[0], ny = p->n[1];
+    p->lambda = xalloc((size_t)nx * ny, sizeof(double));
     for (int j = 0; j < ny; j++)
         for (int i = 0; i < nx; i++)
-            p->lambda[i + (size_t)nx * j] = eigenvalue(p, 0, i) + eigenvalue(p, 1, j);
-    const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
-    p->forward = fftw_plan_r2r_2d(ny, nx, p->work, p->work, kind_of(p, 1, false),
-                                  kind_of(p, 0, false), flags);
-    p->backward = fftw_plan_r2r_2d(ny, nx, p->work, p->work, kind_of(p, 1, true),
-                                   kind_of(p, 0, true), flags);
+            p->lambda[i + (size_t)nx * j] =
+                eigenvalue(p, axis[0], p->t[0], i) + eigenvalue(p, axis[1], p->t[1], j);
+    pad_lambda(p);
+    p->work = xalloc((size_t)p->width[0] * ny * p->n[2], sizeof(double));
+    p->layers = xalloc((size_t)p->n[2], sizeof *p->layers);
+    const size_t lines = 4 * (size_t)(nx > ny ? nx : ny);
+    p->scratch_size = 64 * (lines + 2 * SWEEP_PACKS * (size_t)p->n[2] + 8);
+    p->scratch_size += 64 * ((size_t)p->n[2] / 8 + 1);
     return p;
 }
 
@@ -91,13 +82,12 @@ void poisson_free(struct poisson *p)
 {
     if (!p)
         return;
-    fftw_destroy_plan(p->forward);
-    fftw_destroy_plan(p->backward);
-    xfree(p->work);
-    xfree(p->pivot);
-    xfree(p->wrap);
-    xfree(p->lambda);
-    xfree(p);
+    transform_free(p->t[0]);
+    transform_free(p->t[1]);
+    void *const all[] = {
+        p->lambda, p->lambda_wide[0], p->lambda_wide[1], p->work, p->layers, p->scratch, p};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
 }
 
 bool poisson_singular(const struct poisson *p, double shift)
@@ -108,165 +98,69 @@ bool poisson_singular(const struct poisson *p, double shift)
     return shift == 0.0;
 }
 
-/* Sweeps of the modes [lo, hi): d[k] x[k] + c[k] x[k-1] + c[k+1] x[k+1] = r[k] with
- * c[k] = up[k]/h^2 and d[k] = -c[k] - c[k+1] - flat[k] lambda - shift, sides as they are. A
- * mode without any of these terms (singular) has its last value set to zero. */
-struct sweep {
-    double c[2]; /* below and above the layer */
-    double side; /* what the side of the box adds to the diagonal */
-};
-
-static struct sweep layer(const struct poisson *p, const double *up, int k)
+void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift)
 {
     const double scale = 1.0 / (p->g->h[2] * p->g->h[2]);
-    const int n = p->g->n[2];
-    struct sweep s = {.c = {up[k] * scale, up[k + 1] * scale}};
-    if (k == 1 && p->side[Z_LO] != POISSON_PERIODIC) {
-        s.side += dirichlet(p, Z_LO) ? 2.0 * s.c[0] : 0.0;
-        s.c[0] = 0.0;
-    }
-    if (k == n && p->side[Z_HI] != POISSON_PERIODIC) {
-        s.side += dirichlet(p, Z_HI) ? 2.0 * s.c[1] : 0.0;
-        s.c[1] = 0.0;
-    }
-    return s;
-}
-
-/* Thomas, in place on r, for layers first..last (the rows outside are zero). `corner` is added
- * to the diagonals of layers 1 and n (for Sherman and Morrison). */
-static void thomas(const struct poisson *p, const double *flat, const double *up, double shift,
-                   int first, int last, const double *corner, double *r, size_t lo, size_t hi)
-{
-    const size_t plane = (size_t)p->g->n[0] * p->g->n[1];
-    const int n = p->g->n[2];
-    for (int k = first; k <= last; k++) {
-        const struct sweep s = layer(p, up, k);
-        const double below = k > first ? s.c[0] : 0.0, above = k < last ? s.c[1] : 0.0;
-        double diagonal = s.c[0] + s.c[1] + s.side + shift;
-        if (corner)
-            diagonal += (k == 1 ? corner[0] : 0.0) + (k == n ? corner[1] : 0.0);
-        double *const restrict x = r + (size_t)(k - 1) * plane;
-        double *const restrict g = p->pivot + (size_t)(k - 1) * plane;
-        const double *const restrict x_below = k > first ? x - plane : x;
-        const double *const restrict g_below = k > first ? g - plane : g;
-        for (size_t m = lo; m < hi; m++) {
-            const double d = -diagonal - flat[k] * p->lambda[m];
-            const double carry = k > first ? below : 0.0;
-            const double inverse = 1.0 / (carry != 0.0 ? d - carry * g_below[m] : d);
-            const double before = carry != 0.0 ? carry * x_below[m] : 0.0;
-            g[m] = above * inverse;
-            x[m] = (x[m] - before) * inverse;
+    const int n = p->n[2];
+    const bool periodic = p->side[Z_LO] == POISSON_PERIODIC;
+    for (int k = 1; k <= n; k++) {
+        struct layer l = {.below = up[k] * scale, .above = up[k + 1] * scale, .flat = flat[k]};
+        double side = 0.0;
+        if (k == 1 && !periodic) {
+            side += dirichlet(p, Z_LO) ? 2.0 * l.below : 0.0;
+            l.below = 0.0;
         }
+        if (k == n && !periodic) {
+            side += dirichlet(p, Z_HI) ? 2.0 * l.above : 0.0;
+            l.above = 0.0;
+        }
+        l.diagonal = l.below + l.above + side + shift;
+        p->layers[k - 1] = l;
     }
-    for (int k = last - 1; k >= first; k--) {
-        double *const restrict x = r + (size_t)(k - 1) * plane;
-        const double *const restrict g = p->pivot + (size_t)(k - 1) * plane;
-        for (size_t m = lo; m < hi; m++)
-            x[m] -= g[m] * x[m + plane];
-    }
-}
-
-/* A periodic column: the matrix is a tridiagonal one plus a rank-one part at the corners. */
-static void cyclic(struct poisson *p, const double *flat, const double *up, double shift,
-                   double *r, size_t lo, size_t hi)
-{
-    const size_t plane = (size_t)p->g->n[0] * p->g->n[1];
-    const int n = p->g->n[2];
-    const double c = up[1] / (p->g->h[2] * p->g->h[2]); /* couples layer n to layer 1 */
-    if (n == 1) { /* both neighbours of the layer are itself */
-        for (size_t m = lo; m < hi; m++)
-            r[m] /= -(flat[1] * p->lambda[m] + shift);
-        return;
-    }
-    /* A = T + u v^T, u = (c, 0, ..., 0, c), v = (1, 0, ..., 0, 1): T's corners lose c */
-    const double corner[2] = {c, c};
-    double *const w = p->wrap;
-    for (int k = 1; k <= n; k++)
-        for (size_t m = lo; m < hi; m++)
-            w[(size_t)(k - 1) * plane + m] = (k == 1) + (k == n) ? c : 0.0;
-    thomas(p, flat, up, shift, 1, n, corner, r, lo, hi);
-    thomas(p, flat, up, shift, 1, n, corner, w, lo, hi);
-    const size_t end = (size_t)(n - 1) * plane;
-    for (size_t m = lo; m < hi; m++) {
-        const double factor = (r[m] + r[end + m]) / (1.0 + w[m] + w[end + m]);
-        for (int k = 0; k < n; k++)
-            r[(size_t)k * plane + m] -= factor * w[(size_t)k * plane + m];
+    if (periodic && n == 1)
+        p->layers[0] = (struct layer){.diagonal = shift, .flat = flat[1]};
+    p->singular = poisson_singular(p, shift);
+    const int threads = omp_get_max_threads();
+    if (threads > p->threads) {
+        xfree(p->scratch);
+        p->scratch = xalloc((size_t)threads, p->scratch_size);
+        p->threads = threads;
     }
 }
 
-/* The mode that is constant in x and y, where a constant solves the equation: the first value
- * is set to zero in place of the first equation. */
-static void singular_mode(struct poisson *p, const double *flat, const double *up, double *r)
+void poisson_singular_column(const struct poisson *p, double *x)
 {
-    const int n = p->g->n[2];
-    double *const x = r; /* mode 0 of each plane */
-    const size_t plane = (size_t)p->g->n[0] * p->g->n[1];
-    double mean = 0.0;
+    const struct layer *const l = p->layers;
+    const int n = p->n[2];
+    double mean = 0.0,
+           new_mean = 0.0, *const pivot = (double *)xalloc((size_t)n, sizeof(double));
     for (int k = 0; k < n; k++)
-        mean += x[(size_t)k * plane] / n;
+        mean += x[k] / n;
+    x[0] = 0.0; /* in place of the first equation */
+    for (int k = 1; k < n; k++) {
+        const double below = k > 1 ? l[k].below : 0.0;
+        const double inverse = -1.0 / (l[k].diagonal + below * pivot[k - 1]);
+        pivot[k] = l[k].above * inverse;
+        x[k] = (x[k] - mean - below * x[k - 1]) * inverse;
+    }
+    for (int k = n - 2; k >= 1; k--)
+        x[k] -= pivot[k] * x[k + 1];
     for (int k = 0; k < n; k++)
-        x[(size_t)k * plane] -= mean;
-    x[0] = 0.0;
-    if (n > 1)
-        thomas(p, flat, up, 0.0, 2, n, NULL, r, 0, 1);
+        new_mean += x[k] / n;
+    for (int k = 0; k < n; k++)
+        x[k] -= new_mean;
+    xfree(pivot);
 }
 
-static void gather_planes(const struct poisson *p, const double *rhs)
+void poisson_solve_hooked(struct poisson *p, const double *flat, const double *up, double shift,
+                          const double *rhs, double *out, const struct poisson_hook *hook)
 {
-    const struct grid *const g = p->g;
-    const int nx = g->n[0], ny = g->n[1];
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= g->n[2]; k++) {
-        double *const plane = p->work + (size_t)(k - 1) * nx * ny;
-        for (int j = 1; j <= ny; j++)
-            memcpy(plane + (size_t)(j - 1) * nx, rhs + cell(g, 1, j, k),
-                   (size_t)nx * sizeof(double));
-        fftw_execute_r2r(p->forward, plane, plane);
-    }
-}
-
-static void scatter_planes(const struct poisson *p, double mean, double *out)
-{
-    const struct grid *const g = p->g;
-    const int nx = g->n[0], ny = g->n[1];
-    const double scale = 1.0 / p->norm;
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= g->n[2]; k++) {
-        double *const plane = p->work + (size_t)(k - 1) * nx * ny;
-        fftw_execute_r2r(p->backward, plane, plane);
-        for (int j = 1; j <= ny; j++)
-            for (int i = 1; i <= nx; i++)
-                out[cell(g, i, j, k)] = scale * plane[(i - 1) + (size_t)(j - 1) * nx] - mean;
-    }
+    poisson_prepare(p, flat, up, shift);
+    direct(p, rhs, out, hook);
 }
 
 void poisson_solve(struct poisson *p, const double *flat, const double *up, double shift,
                    const double *rhs, double *out)
 {
-    enum { MODES = 256 }; /* swept at a time */
-    const size_t plane = (size_t)p->g->n[0] * p->g->n[1];
-    const bool singular = poisson_singular(p, shift);
-    const bool periodic = p->side[Z_LO] == POISSON_PERIODIC;
-    gather_planes(p, rhs);
-    const long runs = (long)((plane + MODES - 1) / MODES);
-#pragma omp parallel for schedule(static)
-    for (long run = 0; run < runs; run++) {
-        const size_t first = (size_t)run * MODES;
-        const size_t lo = singular && run == 0 ? 1 : first;
-        const size_t hi = first + MODES < plane ? first + MODES : plane;
-        if (singular && run == 0)
-            singular_mode(p, flat, up, p->work);
-        if (periodic)
-            cyclic(p, flat, up, shift, p->work, lo, hi);
-        else
-            thomas(p, flat, up, shift, 1, p->g->n[2], NULL, p->work, lo, hi);
-    }
-    double mean = 0.0;
-    if (singular) {
-        for (int k = 0; k < p->g->n[2]; k++)
-            mean += p->work[(size_t)k * plane] / p->g->n[2];
-        /* mode 0 is the sum over the plane, times 2 for each Neumann direction */
-        mean /= p->norm;
-    }
-    scatter_planes(p, mean, out);
+    poisson_solve_hooked(p, flat, up, shift, rhs, out, NULL);
 }

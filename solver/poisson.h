@@ -2,15 +2,15 @@
  * depends on the layer (z) only: transforms in x and y, a tridiagonal solve in z.
  *
  * Each direction is periodic, or each of its sides is a Neumann side (no flux) or a Dirichlet
- * side (phi = 0 on the face, half a cell away). */
+ * side (phi = 0 on the face, half a cell away). A direction one cell thick costs nothing. The
+ * bits of the result do not depend on the number of threads. */
 #ifndef POISSON_H
 #define POISSON_H
 
 #include "grid.h"
+#include "transform.h"
 
-enum poisson_side { POISSON_PERIODIC, POISSON_NEUMANN, POISSON_DIRICHLET };
-
-struct poisson; /* plans and scratch */
+struct poisson; /* tables and scratch */
 
 struct poisson *poisson_create(const struct grid *g, const enum poisson_side side[6]);
 void poisson_free(struct poisson *p);
@@ -23,5 +23,21 @@ bool poisson_singular(const struct poisson *p, double shift);
  * A singular problem is solved for a zero mean; the mean of its rhs is ignored. */
 void poisson_solve(struct poisson *p, const double *flat, const double *up, double shift,
                    const double *rhs, double *out);
+
+/* Work on whole layers lo..hi (1..n) that the solve calls from its threads, each layer once:
+ * `before` just before it reads rhs there, `after` just after it has written out. */
+struct poisson_hook {
+    void (*before)(void *with, int lo, int hi);
+    void (*after)(void *with, int lo, int hi);
+    void *with;
+};
+
+/* The same in single precision, to about 1e-6; `hook` may be NULL. */
+void poisson_solve_single(struct poisson *p, const double *flat, const double *up, double shift,
+                          const float *rhs, float *out, const struct poisson_hook *hook);
+
+/* The double solve with hooks. */
+void poisson_solve_hooked(struct poisson *p, const double *flat, const double *up, double shift,
+                          const double *rhs, double *out, const struct poisson_hook *hook);
 
 #endif

@@ -149,6 +149,12 @@ int main(void)
     check_direct((const int[3]){1, 11, 6}, 0.0);
     check_direct((const int[3]){9, 1, 2}, 0.0);
     check_direct((const int[3]){4, 6, 1}, 0.0);
+    check_direct((const int[3]){1, 1, 7}, 0.0);
+    check_direct((const int[3]){1, 10, 1}, 0.3);
+    check_direct((const int[3]){29, 1, 5}, 0.0);
+    check_direct((const int[3]){19, 15, 3}, 0.0); /* primes, odd between unlike sides */
+    check_direct((const int[3]){16, 20, 4}, 0.0); /* radices 4, 2, 5 */
+    check_direct((const int[3]){257, 1, 2}, 0.0); /* FFTW's */
     double worst;
     int iterations;
     const double contrasts[] = {3.0, 100.0};
