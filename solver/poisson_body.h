@@ -203,9 +203,10 @@ static void planes_backward(const struct poisson *p, int k0, int k1, REAL *field
 
 /* Thomas over all layers for `packs` packs of modes: x in place, and w with it where the column
  * is periodic. pivot and w: layers x packs. */
-static inline __attribute__((always_inline)) void
-thomas(const struct poisson *p, const REAL *lambda, int packs, REAL *x, size_t plane,
-       pack *restrict pivot, pack *restrict w, bool wrapped)
+static inline __attribute__((always_inline)) void thomas(const struct poisson *p,
+                                                         const REAL *lambda, int packs, REAL *x,
+                                                         size_t plane, pack *restrict pivot,
+                                                         pack *restrict w, bool wrapped)
 {
     const int n = p->n[2];
     for (int k = 0; k < n; k++) {
@@ -233,8 +234,7 @@ thomas(const struct poisson *p, const REAL *lambda, int packs, REAL *x, size_t p
         REAL *const at = x + (size_t)k * plane;
         for (int q = 0; q < packs; q++) {
             const pack g = pivot[k * packs + q];
-            store(at + q * LANES,
-                  load(at + q * LANES) - g * load(at + plane + q * LANES));
+            store(at + q * LANES, load(at + q * LANES) - g * load(at + plane + q * LANES));
             if (wrapped)
                 w[k * packs + q] -= g * w[(k + 1) * packs + q];
         }
@@ -294,7 +294,8 @@ static void hooked(const struct poisson_hook *hook, bool before, int k0, int k1)
 }
 
 /* Few planes: threads share each of them. */
-static void few_forward(const struct poisson *p, const REAL *rhs, const struct poisson_hook *hook)
+static void few_forward(const struct poisson *p, const REAL *rhs,
+                        const struct poisson_hook *hook)
 {
     const long lines = (long)p->n[1] * p->n[2];
     const int groups = (p->n[0] + LINES - 1) / LINES;

@@ -21,12 +21,12 @@ struct poisson {
     int width[2];           /* modes in a row of the work, padded; double and single */
     void *lambda_wide[2];   /* the same, padded */
     double norm;
-    void *work;             /* planes x rows x width */
-    struct layer *layers;   /* n[2] */
-    bool singular;          /* this solve */
-    char *scratch;          /* of each thread */
-    size_t scratch_size;    /* bytes of one thread */
-    int threads;            /* that it has room for */
+    void *work;           /* planes x rows x width */
+    struct layer *layers; /* n[2] */
+    bool singular;        /* this solve */
+    char *scratch;        /* of each thread */
+    size_t scratch_size;  /* bytes of one thread */
+    int threads;          /* that it has room for */
 };
 
 /* Layers for these coefficients, scratch for the threads at hand. */

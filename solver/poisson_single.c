@@ -2,7 +2,7 @@
 #include <omp.h>
 #include "poisson_plan.h"
 
-#define REAL float
+#define REAL  float
 #define INDEX int
 static inline const float *table_of(const struct transform *t)
 {

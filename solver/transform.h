@@ -36,8 +36,8 @@ struct transform {
     int length, copies; /* of the complex lines that a pair of lines makes */
     int passes, radix[TRANSFORM_PASSES];
     int *slot;       /* n: where input j goes, for the first half of the lines */
-    bool signs;         /* some inputs change sign: */
-    bool *negative;     /* n: this one does */
+    bool signs;      /* some inputs change sign: */
+    bool *negative;  /* n: this one does */
     int step, group; /* mode m of the first half lies at m step; the second half `group` on */
     double *eigenvalue; /* n, times h^2 */
     double norm;        /* backward(forward(x)) = norm x */

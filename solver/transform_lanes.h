@@ -66,9 +66,10 @@ static void pass_4(int m, int s, const REAL *w, const struct pair *restrict x,
 }
 
 /* Odd radices: sums and differences of the values j and r - j halve the work. */
-static inline __attribute__((always_inline)) void
-pass_odd(const int r, int m, int s, const REAL *w, const REAL *root,
-         const struct pair *restrict x, struct pair *restrict y)
+static inline __attribute__((always_inline)) void pass_odd(const int r, int m, int s,
+                                                           const REAL *w, const REAL *root,
+                                                           const struct pair *restrict x,
+                                                           struct pair *restrict y)
 {
     struct pair sum[TRANSFORM_PRIME / 2 + 1], difference[TRANSFORM_PRIME / 2 + 1];
     const int half = r / 2;
@@ -146,8 +147,8 @@ static struct pair *fft(const struct transform *t, struct pair *x, struct pair *
 static inline void separate(const struct pair *z, const struct pair *zn, const REAL *w,
                             struct pair *out, struct pair *out_n)
 {
-    const struct pair a = {z->re + zn->re, z->im - zn->im}, b = {z->im + zn->im,
-                                                                  zn->re - z->re};
+    const struct pair a = {z->re + zn->re, z->im - zn->im},
+                      b = {z->im + zn->im, zn->re - z->re};
     if (w) {
         const struct pair wa = turned(a, w), wb = turned(b, w);
         *out = (struct pair){wa.re, wb.re};
