@@ -1,24 +1,20 @@
 /* porosity/porosity.h - contract: what does the grid see of a grain?
  *
  * To add an answer: copy none.c to porosity/NAME.c. Every answer exports exactly the symbols
- * below. An answer says in which cells a grain lies, and with which shares (sum 1). The
- * coupling uses the same shares for everything: the grain's volume (fluid fraction), what the
- * grain feels of the fluid, and what the fluid feels of the grain; so whatever is spread is
- * given back with the same weights, and volume and momentum are conserved to round-off, next to
- * walls too.
+ * below. An answer says in which cells a grain lies, with which shares (sum 1), and by which
+ * Gaussian the fields made of them are then diffused (solver/diffuse.h; most: by none). The
+ * coupling uses the same weights, shares times diffusion, for everything: the grain's volume
+ * (fluid fraction), what the grain feels of the fluid, and what the fluid feels of the grain; so
+ * whatever is spread is given back with the same weights, and volume and momentum are conserved
+ * to round-off, next to walls too.
  *
  * Cells are interior cells (periodic directions wrapped; what would lie outside a wall goes to
  * cells inside). Called from parallel loops. */
 #ifndef POROSITY_H
 #define POROSITY_H
 
-#include "../solver/grid.h"
 #include "../solver/grains.h"
-
-struct share {
-    int cell;      /* index in a grid field */
-    double weight; /* fraction of the grain, >= 0; all of a grain's sum to 1 to round-off */
-};
+#include "../solver/shares.h"
 
 extern const struct about porosity_about;
 extern const struct key porosity_keys[]; /* of section "porosity" */
@@ -32,5 +28,8 @@ int porosity_reach(const struct grid *g, double radius);
 /* Fills `out` (room for porosity_reach of the largest grain), returns how many. */
 int porosity_shares(const struct grid *g, const struct domain *d, const struct grains *grains,
                     int i, struct share *out);
+
+/* Standard deviation of the Gaussian, m, where the largest grain has this radius; 0: none. */
+double porosity_width(double radius);
 
 #endif

@@ -1,7 +1,4 @@
-/* coupling.c - the exchange between grains and fluid, see coupling.h for the equations.
- *
- * Sums to the grid go in the order of the grains: every thread walks all shares and adds those
- * of its own slab of cells, so the bits do not depend on the number of threads. */
+/* coupling.c - the exchange between grains and fluid, see coupling.h for the equations. */
 #include "coupling.h"
 
 #include <string.h>
@@ -47,14 +44,20 @@ void coupling_create(struct sim *s)
     const size_t reach = (size_t)c->reach;
     grains_follow(g, (void **)&c->n_shares, sizeof *c->n_shares);
     grains_follow(g, (void **)&c->shares, reach * sizeof *c->shares);
-    grains_follow(g, (void **)&c->kappa, reach * sizeof *c->kappa);
+    grains_follow(g, (void **)&c->part, reach * sizeof *c->part);
+    grains_follow(g, (void **)&c->values, SPREAD_STRIDE * sizeof *c->values);
     grains_follow(g, (void **)&c->v_ref, sizeof *c->v_ref);
     grains_follow(g, (void **)&c->slack, sizeof *c->slack);
+    spread_create(&c->spread, &s->grid);
+    const double width = porosity_width(grains_widest(g));
+    if (width > 0.0)
+        c->diffuse = diffuse_create(&s->grid, &s->domain, width);
     c->drag = xalloc(n, sizeof *c->drag);
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);
     c->eps = grid_field(&s->grid);
     drag_grains_create(s);
+    c->eps_seen = c->diffuse ? grid_field(&s->grid) : c->eps;
     for (int a = 0; a < 3; a++) {
         static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
                                                {"drag_velocity_y", "drag_swing_y"},
@@ -70,7 +73,7 @@ void coupling_create(struct sim *s)
                                   KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
         c->K[a] = grid_field(&s->grid);
         c->KV[a] = grid_field(&s->grid);
-        c->Q[a] = grid_field(&s->grid);
+        c->seen[a] = grid_field(&s->grid);
         c->M[a] = grid_field(&s->grid);
     }
     fields_add(&s->fields,
@@ -87,81 +90,73 @@ void coupling_create(struct sim *s)
 void coupling_free(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
-    void *const all[] = {c->n_shares, c->shares,   c->kappa, c->v_ref, c->drag,
-                         c->vel_old,  c->pos_load, c->eps,   c->slack};
+    void *const all[] = {c->n_shares, c->shares,  c->part,     c->values, c->v_ref,
+                         c->drag,     c->vel_old, c->pos_load, c->eps,    c->slack};
+    drag_grains_free(s);
+    spread_free(&c->spread);
+    diffuse_free(c->diffuse);
+    if (c->eps_seen != c->eps)
+        xfree(c->eps_seen);
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
-    drag_grains_free(s);
     for (int a = 0; a < 3; a++) {
         xfree(c->K[a]);
         xfree(c->KV[a]);
         xfree(c->u_drag[a]);
         xfree(c->swing[a]);
-        xfree(c->Q[a]);
+        xfree(c->seen[a]);
         xfree(c->M[a]);
     }
 }
 
-/* out += the volume of the grains, per cell; in the order of the grains */
-static void spread_volume(const struct sim *s, double *out)
-{
-    const struct coupling *const c = &s->coupling;
-#pragma omp parallel
-    {
-        int lo, hi;
-        grid_slab(&s->grid, &lo, &hi);
-        memset(out + lo, 0, (size_t)(hi - lo) * sizeof *out);
-        for (int i = 0; i < s->grains.n; i++) {
-            const struct share *const w = &c->shares[(size_t)i * c->reach];
-            for (int k = 0; k < c->n_shares[i]; k++)
-                if (w[k].cell >= lo && w[k].cell < hi)
-                    out[w[k].cell] += w[k].weight * s->grains.volume[i];
-        }
-    }
-}
-
-static void die_full(const struct sim *s, int c)
+static _Noreturn void die_full(const struct sim *s)
 {
     const struct grid *const g = &s->grid;
-    const int k = c / g->sk, j = c % g->sk / g->sj, i = c % g->sj;
+    const double *const eps = s->coupling.eps;
+    int least = cell(g, 1, 1, 1);
+    for (int k = 1; k <= g->n[2]; k++)
+        for (int j = 1; j <= g->n[1]; j++)
+            for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++)
+                least = eps[at] < eps[least] ? at : least;
+    const int k = least / g->sk, j = least % g->sk / g->sj, i = least % g->sj;
     die(EXIT_UNSTABLE,
         "the fluid fraction of cell %d %d %d (centre %.4g %.4g %.4g m) is %.4g at t = %.9g s, "
         "below "
         "coupling.porosity_min = %g; take larger cells, or an answer of porosity/ that spreads "
         "a "
         "grain over cells",
-        i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2],
-        s->coupling.eps[c], s->t, s->coupling.eps_min);
+        i, j, k, (i - 0.5) * g->h[0], (j - 0.5) * g->h[1], (k - 0.5) * g->h[2], eps[least],
+        s->t, s->coupling.eps_min);
 }
 
 /* eps = 1 - volume / cell volume; the total against the grains' */
-static void fluid_fraction(struct sim *s)
+static void fluid_fraction(struct sim *s, const double *volume)
 {
     struct coupling *const c = &s->coupling;
     const struct grid *const g = &s->grid;
-    double on_grid = 0.0, of_grains = 0.0, least = 1.0;
-    int least_cell = 0;
-    for (int i = 0; i < s->grains.n; i++)
-        of_grains += s->grains.volume[i];
+    const double per_cell = porosity_displaces ? 1.0 / g->volume : 0.0;
+    const double on_grid = sum_blocks(volume, g->total);
+    const double of_grains = sum_blocks(s->grains.volume, (size_t)s->grains.n);
+    double least = 1.0;
+#pragma omp parallel for schedule(static) reduction(min : least)
     for (int k = 1; k <= g->n[2]; k++)
         for (int j = 1; j <= g->n[1]; j++)
-            for (int i = 1; i <= g->n[0]; i++) {
-                const int at = cell(g, i, j, k);
-                on_grid += c->K[0][at];
-                c->eps[at] = porosity_displaces ? 1.0 - c->K[0][at] / g->volume : 1.0;
-                if (c->eps[at] < least) {
-                    least = c->eps[at];
-                    least_cell = at;
-                }
+            for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
+                c->eps[at] = 1.0 - volume[at] * per_cell;
+                least = c->eps[at] < least ? c->eps[at] : least;
             }
     c->eps_least = least;
     c->volume_error = of_grains > 0.0 ? fabs(on_grid / of_grains - 1.0) : 0.0;
     if (least < c->eps_min)
-        die_full(s, least_cell);
+        die_full(s);
     grid_ghosts(g, &s->domain, c->eps);
+    if (c->diffuse) {
+        memcpy(c->eps_seen, c->eps, g->total * sizeof *c->eps);
+        diffuse_apply(c->diffuse, c->eps_seen);
+    }
 }
 
-/* M of coupling.h: m_f^2 (form 27c: m_f), mean of the two faces of each cell. */
+/* M of coupling.h (form 27c: of eps_f), over eps^2 and diffused. */
 static void sense_squares(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
@@ -173,10 +168,13 @@ static void sense_squares(struct sim *s)
         for (int k = 1; k <= g->n[2]; k++)
             for (int j = 1; j <= g->n[1]; j++)
                 for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
-                    const double lo = 0.5 * (c->eps[at] + c->eps[at - step]);
-                    const double hi = 0.5 * (c->eps[at] + c->eps[at + step]);
-                    c->M[a][at] = 0.5 * (whole ? lo + hi : lo * lo + hi * hi);
+                    const double e = c->eps[at];
+                    const double lo = 0.5 * (e + c->eps[at - step]);
+                    const double hi = 0.5 * (e + c->eps[at + step]);
+                    c->M[a][at] = 0.5 * (whole ? lo + hi : lo * lo + hi * hi) / (e * e);
                 }
+        if (c->diffuse)
+            diffuse_apply(c->diffuse, c->M[a]);
     }
 }
 
@@ -189,9 +187,12 @@ void coupling_volume(struct sim *s)
     for (int i = 0; i < s->grains.n; i++)
         c->n_shares[i] =
             porosity_shares(g, &s->domain, &s->grains, i, &c->shares[(size_t)i * c->reach]);
-    spread_volume(s, c->K[0]);
+    spread_prepare(&c->spread, s->grains.n, c->reach, c->n_shares, c->shares);
+    spread_one(&c->spread, s->grains.volume, c->K[0]);
+    if (c->diffuse)
+        diffuse_apply(c->diffuse, c->K[0]);
     drag_grains_sauter(s, c->K[0]);
-    fluid_fraction(s);
+    fluid_fraction(s, c->K[0]);
     memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
     if (c->ways == 2)
         memcpy(f->eps, c->eps, g->total * sizeof *f->eps);

@@ -1,16 +1,20 @@
 /* coupling.h - the exchange between grains and fluid; called by the fluid solvers only.
  *
- * With the shares w_pc of grain p in cell c (porosity.h), V the volume of a cell:
- *   eps_c  = 1 - sum_p w_pc V_p / V                         fluid fraction
- *   eps_f  = (eps_lo + eps_hi)/2                            on a face (boundary: the cell
- * inside) U_c    = (eps_f u_f of low face + of high face)/2       superficial velocity, each
- * direction u_c    = U_c / eps_c kappa_pc = drag_kappa at eps_c, |u_c - v_p|, d_p Each half cell
- * passes its share to the face beside it, so that on a face (volume V inside, V/2 on the
- * boundary) K_c    = sum_p w_pc kappa'_pc / eps_c^2 B_f    = eps_f^2 (K_lo + K_hi)/2 V / V_f
- * drag coefficient S_f    = the same with kappa'_pc v'_p so the resistance to the superficial
- * velocity, B/eps_f^2, is the mean of the two cells: a layered column is exact. The force on
- * grain p is the sum of its parts of B_f u_f - S_f, so the momentum handed over cancels to
- * round-off. The pressure and viscous forces, V_p G, are handed over with the same weights.
+ * With the shares w_pc of grain p in cell c and the diffusion D, symmetric, the identity for most
+ * answers (porosity.h), V the volume of a cell:
+ *   eps_c  = 1 - D sum_p w_pc V_p / V             fluid fraction
+ *   eps_f  = (eps_lo + eps_hi)/2                  on a face (boundary: the cell inside)
+ *   U_c    = (eps_f u_f of low face + of high face)/2    superficial velocity, each direction
+ *   kappa_pc = drag_kappa at (D eps)_c, |(D U/eps)_c - v_p|, d_p
+ * Each half cell passes its share to the face beside it, so that on a face (volume V inside, V/2 on
+ * the boundary)
+ *   K_c    = (D sum_p w_pc kappa'_pc)_c / eps_c^2
+ *   B_f    = eps_f^2 (K_lo + K_hi)/2 / V          drag coefficient
+ *   S_f    = the same with kappa'_pc v'_p
+ * so the resistance to the superficial velocity, B/eps_f^2, is the mean of the two cells: a layered
+ * column is exact. The force on grain p is the sum of its parts of B_f u_f - S_f, through the same D,
+ * so the momentum handed over cancels to round-off. The pressure and viscous forces, V_p G, are
+ * handed over with the same weights.
  *
  * Form 27c (fluid.whole_pressure) passes drag over eps: eps_f in place of eps_f^2 here and in M
  * below; and no G.
@@ -20,18 +24,19 @@
  * step, where the velocity at hand alone would swing for ever once dt B/rho is large.
  *
  * Drag is implicit on both phases. For a grain that is free to move, with
- *   theta = (dt/m) sum_c w_pc kappa_pc M_c/eps_c^2   in each direction, M_c the mean of eps_f^2
- * over the two faces of the cell (so theta = dt kappa/m where the porosity is uniform) kappa' =
- * kappa/(1 + theta),   v' = v + (dv - dt F_d/m) dv being its change of velocity over the last
- * fluid step and F_d the drag then: v' is the velocity that it will have without drag. Stable
- * for any theta, right for grains that others hold, and F_d is constant over the sub-steps.
- * `coupling.drag = explicit` sets theta = 0. */
+ *   theta = (dt/m) sum_c w_pc kappa_pc (D M/eps^2)_c   in each direction, M_c the mean of eps_f^2
+ *           over the two faces of the cell (so theta = dt kappa/m where the porosity is uniform)
+ *   kappa' = kappa/(1 + theta),   v' = v + (dv - dt F_d/m)
+ * dv being its change of velocity over the last fluid step and F_d the drag then: v' is the velocity
+ * that it will have without drag. Stable for any theta, right for grains that others hold, and F_d is
+ * constant over the sub-steps. `coupling.drag = explicit` sets theta = 0. */
 #ifndef COUPLING_H
 #define COUPLING_H
 
-#include "drag_grains.h"
-#include "grid.h"
 #include "../porosity/porosity.h"
+#include "diffuse.h"
+#include "drag_grains.h"
+#include "spread.h"
 
 struct sim;
 
@@ -44,18 +49,24 @@ struct coupling {
     int reach;                                 /* shares per grain, at most */
     int *n_shares;                             /* per grain */
     struct share *shares;                      /* n x reach */
-    double *kappa;                             /* n x reach, kg/s */
+    struct spread spread;                      /* of the shares, to cells */
+    struct diffuse *diffuse;                   /* D; NULL: the identity */
     struct drag_grains drag_of;                /* the grains as the drag law sees them */
-    vec3 *slack;          /* 1/(1 + theta) per direction: kappa' over kappa */
-    vec3 *drag;           /* N per grain, the last drag force (a grain field) */
-    vec3 *vel_old;        /* m/s at the last fluid step (a grain field) */
-    vec3 *pos_load;       /* m at the last fluid step (a grain field), for the ledger's work */
-    vec3 *v_ref;          /* m/s, v' */
-    double *u_drag[3];    /* m/s on faces, superficial, at which kappa was taken (state) */
-    double *swing[3];     /* m/s, how it wished to change the last time (state) */
-    double *eps;          /* fluid fraction as the grains see it, ghosts filled */
-    double *K[3], *KV[3]; /* cell sums, kg/s and N */
-    double *Q[3], *M[3];  /* on cells: (m_f U_f) and m_f^2, means of the two faces */
+    double *part;                              /* n x reach, w kappa, kg/s */
+    double *values;    /* n x SPREAD_STRIDE, what a grain adds to its cells */
+    vec3 *slack;       /* 1/(1 + theta) per direction: kappa' over kappa */
+    vec3 *drag;        /* N per grain, the last drag force (a grain field) */
+    vec3 *vel_old;     /* m/s at the last fluid step (a grain field) */
+    vec3 *pos_load;    /* m at the last fluid step (a grain field), for the ledger's work */
+    vec3 *v_ref;       /* m/s, v' */
+    double *u_drag[3]; /* m/s on faces, superficial, at which kappa was taken (state) */
+    double *swing[3];  /* m/s, how it wished to change the last time (state) */
+    double *eps;       /* fluid fraction, ghosts filled */
+    double *eps_seen;  /* D eps, as the grains see it; eps itself where D is the identity */
+    double *
+        seen[3]; /* on cells, D of the velocity U/eps; of the mean of eps_f^2 u_f, over eps^2 */
+    double *M[3];               /* on cells, D of the mean of eps_f^2 over eps^2 */
+    double *K[3], *KV[3];       /* on cells, kg/s and N; K then D of the stress */
     vec3 to_grains, from_fluid; /* N, drag + stress on all grains / lost by the fluid */
     double eps_least;           /* smallest fluid fraction at this step */
     double relaxation;          /* largest dt kappa/m at this step */

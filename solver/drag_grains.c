@@ -108,21 +108,16 @@ void drag_grains_sauter(struct sim *s, const double *volume)
     double *const out = c->drag_of.sauter;
     if (!out)
         return;
-#pragma omp parallel
-    {
-        int lo, hi;
-        grid_slab(&s->grid, &lo, &hi);
-        memset(out + lo, 0, (size_t)(hi - lo) * sizeof *out);
-        for (int i = 0; i < s->grains.n; i++) {
-            const struct share *const w = &c->shares[(size_t)i * c->reach];
-            const double area = s->grains.volume[i] / drag_grains_diameter(s, i);
-            for (int k = 0; k < c->n_shares[i]; k++)
-                if (w[k].cell >= lo && w[k].cell < hi)
-                    out[w[k].cell] += w[k].weight * area;
-        }
-        for (int at = lo; at < hi; at++)
-            out[at] = out[at] > 0.0 ? volume[at] / out[at] : 1.0;
-    }
+    double *const area = c->values; /* m2 per grain, V/d */
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < s->grains.n; i++)
+        area[i] = s->grains.volume[i] / drag_grains_diameter(s, i);
+    spread_one(&c->spread, area, out);
+    if (c->diffuse)
+        diffuse_apply(c->diffuse, out);
+#pragma omp parallel for schedule(static)
+    for (size_t at = 0; at < s->grid.total; at++)
+        out[at] = out[at] > 0.0 ? volume[at] / out[at] : 1.0;
 }
 
 void drag_grains_warn(struct sim *s)

@@ -15,6 +15,8 @@
  * same volumes by other ways are in [StrobletAl16]. */
 #include "sphere_box.h"
 
+#include <stdbool.h>
+
 static const double pi = 3.14159265358979323846;
 
 double ball_beyond(double a)
@@ -68,6 +70,62 @@ double ball_octant(double a, double b, double c)
     const double faces =
         face(a, b, c, w_ac, w_ab) + face(b, a, c, w_bc, w_ab) + face(c, a, b, w_bc, w_ac);
     return (2.0 * pi - corners - faces) / (4.0 * pi);
+}
+
+struct ball_pair ball_pair(double a, double b)
+{
+    struct ball_pair p = {.a = a, .b = b, .w2 = 1.0 - a * a - b * b};
+    if (p.w2 <= 0.0) {
+        p.wedge = ball_wedge(a, b);
+        return p;
+    }
+    p.w = sqrt(p.w2);
+    p.at_a = atan2(p.w, a);
+    p.at_b = atan2(p.w, b);
+    p.at_corner = atan2(p.w, a * b);
+    p.wedge = (2.0 * p.at_corner - a * (3.0 - a * a) * p.at_b - b * (3.0 - b * b) * p.at_a +
+               2.0 * a * b * p.w) /
+              (4.0 * pi);
+    return p;
+}
+
+/* beyond(|a|, b) or beyond(a, |b|) or both, of a pair: mirrored planes have the rest. */
+static double mirrored(const struct ball_pair *p, bool a, bool b)
+{
+    double v = p->wedge;
+    if (a)
+        v = ball_beyond(p->b) - v;
+    if (b)
+        v = ball_beyond(a ? -p->a : p->a) - v;
+    return v;
+}
+
+/* The corner lies outside the ball: what ball_octant does in that case. */
+static double octant_outside(const struct ball_pair *ab, const struct ball_pair *ac,
+                             const struct ball_pair *bc)
+{
+    const bool a = ab->a < 0.0, b = ab->b < 0.0, c = ac->b < 0.0;
+    double v = c ? mirrored(ab, a, b) : 0.0;
+    if (b)
+        v = mirrored(ac, a, false) - v;
+    return a ? bc->wedge - v : v;
+}
+
+double ball_octant_of(const struct ball_pair *ab, const struct ball_pair *ac,
+                      const struct ball_pair *bc)
+{
+    const double a = ab->a, b = ab->b, c = ac->b;
+    if (ab->w2 <= c * c)
+        return octant_outside(ab, ac, bc);
+    const double phi_a = ab->at_b + ac->at_b - 0.5 * pi;
+    const double phi_b = ab->at_a + bc->at_b - 0.5 * pi;
+    const double phi_c = ac->at_a + bc->at_a - 0.5 * pi;
+    const double on_a = 0.5 * ((1.0 - a * a) * phi_a - c * (ac->w - b) - b * (ab->w - c));
+    const double on_b = 0.5 * ((1.0 - b * b) * phi_b - c * (bc->w - a) - a * (ab->w - c));
+    const double on_c = 0.5 * ((1.0 - c * c) * phi_c - b * (bc->w - a) - a * (ac->w - b));
+    const double corners = ab->at_corner + ac->at_corner + bc->at_corner - pi;
+    return (corners - a * (phi_a + on_a) - b * (phi_b + on_b) - c * (phi_c + on_c)) /
+           (4.0 * pi);
 }
 
 double sphere_box_overlap(vec3 centre, double radius, vec3 lo, vec3 hi)

@@ -1,0 +1,226 @@
+/* shares.c - bodies on the grid, see shares.h.
+ *
+ * The cells that a ball meets form a small brick. With G(i,j,k) the part of the ball beyond the low
+ * faces of cell (i,j,k) (solver/sphere_box.c; the low faces at the edge of the brick count as
+ * infinitely far), the parts in the cells are the differences of G along x, y and z in turn, and they
+ * sum to 1 but for round-off. A ball in one cell costs no formula, one cut by a single plane only
+ * that of a cap; where many planes cut it, what depends on two of them is found once per pair. */
+#include "shares.h"
+
+#include "sphere_box.h"
+
+static const double beyond_all = -2.0; /* radii: a plane that cuts nothing off */
+
+enum { PLANES_MOST = 16 }; /* per direction, for the tables of pairs */
+
+/* Interior index 1..n of interval i, counted from 0 at the low side and on beyond the box. */
+static int fold(const struct grid *g, const struct domain *d, int axis, int i)
+{
+    const int n = g->n[axis], period = d->periodic[axis] ? n : 2 * n;
+    const int rest = i % period, m = rest < 0 ? rest + period : rest;
+    return 1 + (m < n ? m : period - 1 - m);
+}
+
+/* The lower of the two cell centres around x, as an interval, and the weight of the upper one. */
+static int trilinear_interval(const struct grid *g, int axis, double x, double *upper)
+{
+    if (g->n[axis] == 1) {
+        *upper = 0.0;
+        return 0;
+    }
+    const double at = x / g->h[axis] - 0.5, low = floor(at);
+    *upper = at - low;
+    return (int)low;
+}
+
+int shares_trilinear(const struct grid *g, const struct domain *d, vec3 x, struct share *out)
+{
+    const double at[3] = {x.x, x.y, x.z};
+    int index[3][2], n = 0;
+    double weight[3][2];
+    for (int a = 0; a < 3; a++) {
+        double upper;
+        const int low = trilinear_interval(g, a, at[a], &upper);
+        index[a][0] = fold(g, d, a, low);
+        index[a][1] = fold(g, d, a, low + 1);
+        weight[a][0] = 1.0 - upper;
+        weight[a][1] = upper;
+        if (index[a][0] == index[a][1]) { /* next to a wall both are the same cell */
+            weight[a][0] = 1.0;
+            weight[a][1] = 0.0;
+        }
+    }
+    for (int c = 0; c < 2; c++)
+        for (int b = 0; b < 2; b++)
+            for (int e = 0; e < 2; e++) {
+                const double w = weight[0][e] * weight[1][b] * weight[2][c];
+                if (w > 0.0)
+                    out[n++] =
+                        (struct share){cell(g, index[0][e], index[1][b], index[2][c]), w};
+            }
+    return n;
+}
+
+/* The intervals of a direction that a ball meets. */
+struct span {
+    int first, n;         /* of the intervals, counted from 0 at the low side of the box */
+    double centre, inv_r; /* centre from the low face of `first`, m; 1/m */
+    double h;             /* m */
+};
+
+/* At most that many intervals of width h hold a length of 2 r. */
+static int span_most(double radius, double h)
+{
+    return (int)ceil(2.0 * radius / h) + 1;
+}
+
+static struct span span_find(const struct grid *g, int axis, double x, double radius)
+{
+    const double h = g->h[axis];
+    const int most = span_most(radius, h);
+    if (g->n[axis] == 1)
+        return (struct span){.first = 0, .n = 1};
+    const int lo = (int)floor((x - radius) / h);
+    int hi = (int)ceil((x + radius) / h) - 1;
+    if (hi - lo >= most) /* by round-off; what is cut off stays in the last interval */
+        hi = lo + most - 1;
+    hi = hi < lo ? lo : hi;
+    return (struct span){
+        .first = lo, .n = hi - lo + 1, .centre = x - lo * h, .inv_r = 1.0 / radius, .h = h};
+}
+
+/* Low plane of interval i of the span, in radii from the centre. */
+static double span_plane(const struct span *s, int i)
+{
+    return i == 0 ? beyond_all : (i * s->h - s->centre) * s->inv_r;
+}
+
+static double part_beyond(double a, double b, double c)
+{
+    if (b == beyond_all && c == beyond_all)
+        return ball_beyond(a);
+    if (a == beyond_all)
+        return c == beyond_all ? ball_beyond(b) : ball_wedge(b, c);
+    if (b == beyond_all)
+        return ball_wedge(a, c);
+    return c == beyond_all ? ball_wedge(a, b) : ball_octant(a, b, c);
+}
+
+static void parts_directly(const struct span s[3], double *G)
+{
+    for (int c = 0, m = 0; c < s[2].n; c++)
+        for (int b = 0; b < s[1].n; b++)
+            for (int a = 0; a < s[0].n; a++, m++)
+                G[m] = part_beyond(span_plane(&s[0], a), span_plane(&s[1], b),
+                                   span_plane(&s[2], c));
+}
+
+/* Tables of pairs of planes: xy, xz, yz. */
+struct pairs {
+    struct ball_pair xy[PLANES_MOST][PLANES_MOST], xz[PLANES_MOST][PLANES_MOST],
+        yz[PLANES_MOST][PLANES_MOST];
+};
+
+static void pairs_fill(const struct span *s, const struct span *t,
+                       struct ball_pair pair[PLANES_MOST][PLANES_MOST])
+{
+    for (int i = 1; i < s->n; i++)
+        for (int k = 1; k < t->n; k++)
+            pair[i][k] = ball_pair(span_plane(s, i), span_plane(t, k));
+}
+
+static void parts_by_pairs(const struct span s[3], double *G)
+{
+    struct pairs p;
+    pairs_fill(&s[0], &s[1], p.xy);
+    pairs_fill(&s[0], &s[2], p.xz);
+    pairs_fill(&s[1], &s[2], p.yz);
+    for (int c = 0, m = 0; c < s[2].n; c++)
+        for (int b = 0; b < s[1].n; b++)
+            for (int a = 0; a < s[0].n; a++, m++) {
+                if (a && b && c)
+                    G[m] = ball_octant_of(&p.xy[a][b], &p.xz[a][c], &p.yz[b][c]);
+                else if (b && c)
+                    G[m] = p.yz[b][c].wedge;
+                else if (a && c)
+                    G[m] = p.xz[a][c].wedge;
+                else if (a && b)
+                    G[m] = p.xy[a][b].wedge;
+                else
+                    G[m] = ball_beyond(span_plane(&s[a ? 0 : b ? 1 : 2], a ? a : b ? b : c));
+            }
+}
+
+/* G -> parts of the cells: each entry minus the next one along x, y, z. */
+static void differences(const struct span s[3], double *G)
+{
+    const int nx = s[0].n, ny = s[1].n, n = nx * ny * s[2].n;
+    for (int row = 0; row < n; row += nx)
+        for (int m = row; m < row + nx - 1; m++)
+            G[m] -= G[m + 1];
+    for (int layer = 0; layer < n; layer += nx * ny)
+        for (int m = layer; m < layer + nx * (ny - 1); m++)
+            G[m] -= G[m + nx];
+    for (int m = 0; m + nx * ny < n; m++)
+        G[m] -= G[m + nx * ny];
+}
+
+/* The parts above 1e-15 (smaller ones are round-off of cells in the brick's corners that the ball
+ * does not reach), with their sum made 1; returns how many they are. */
+static int keep(const struct grid *g, const struct domain *d, const struct span s[3],
+                const double *parts, struct share *out)
+{
+    int used = 0;
+    double sum = 0.0;
+    for (int c = 0, m = 0; c < s[2].n; c++) {
+        const int k = fold(g, d, 2, s[2].first + c);
+        for (int b = 0; b < s[1].n; b++) {
+            const int j = fold(g, d, 1, s[1].first + b);
+            for (int a = 0; a < s[0].n; a++, m++) {
+                if (!(parts[m] > 1e-15))
+                    continue;
+                out[used++] =
+                    (struct share){cell(g, fold(g, d, 0, s[0].first + a), j, k), parts[m]};
+                sum += parts[m];
+            }
+        }
+    }
+    for (int m = 0; m < used; m++)
+        out[m].weight /= sum;
+    return used;
+}
+
+int shares_ball_most(const struct grid *g, double radius)
+{
+    int most = 1;
+    for (int axis = 0; axis < 3; axis++)
+        most *= g->n[axis] == 1 ? 1 : span_most(radius, g->h[axis]);
+    return most;
+}
+
+int shares_ball(const struct grid *g, const struct domain *d, vec3 x, double radius,
+                struct share *out)
+{
+    enum { PARTS = PLANES_MOST * PLANES_MOST * PLANES_MOST };
+    const struct span s[3] = {span_find(g, 0, x.x, radius), span_find(g, 1, x.y, radius),
+                              span_find(g, 2, x.z, radius)};
+    const int n = s[0].n * s[1].n * s[2].n;
+    const bool small = s[0].n <= PLANES_MOST && s[1].n <= PLANES_MOST && s[2].n <= PLANES_MOST;
+    double parts[PARTS];
+    if (n == 1) {
+        out[0] = (struct share){cell(g, fold(g, d, 0, s[0].first), fold(g, d, 1, s[1].first),
+                                     fold(g, d, 2, s[2].first)),
+                                1.0};
+        return 1; /* the whole of it */
+    }
+    double *const G = n <= PARTS ? parts : xalloc((size_t)n, sizeof *G);
+    if (small)
+        parts_by_pairs(s, G);
+    else
+        parts_directly(s, G);
+    differences(s, G);
+    const int used = keep(g, d, s, G, out);
+    if (G != parts)
+        xfree(G);
+    return used;
+}
