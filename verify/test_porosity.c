@@ -2,15 +2,20 @@
  *
  * The exact overlap is compared with an adaptive quadrature over the height of the box (the
  * area of a disc in a rectangle, by another formula than the program's), and with the volume of
- * the sphere when the boxes of a grid cover it. The contract, for every answer there is: shares
- * are positive, sum to 1, name interior cells, fit the room asked for; what grains of any place
- * put on the grid is their volume. */
+ * the sphere when the boxes of a grid cover it. The contract, for every answer there is, between walls,
+ * in corners, in periodic boxes and in boxes one cell thick: shares are positive, sum to 1, name
+ * interior cells, fit the room asked for; what grains of any place put on the grid is their volume;
+ * what a grain feels of a field is what it would put there (the same weights both ways, the Gaussian
+ * included); grains that fill a box evenly give an even fluid fraction up to its walls. How well a
+ * field linear in space is felt is printed; answers that promise it exactly are held to it. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_rng.h>
 #include "../porosity/porosity.h"
 #include "../solver/base.h"
+#include "../solver/diffuse.h"
 #include "../solver/sphere_box.h"
+#include "../solver/spread.h"
 #include "answers.h"
 
 static const double pi = 3.14159265358979323846;
@@ -172,27 +177,15 @@ struct answer {
     int (*reach)(const struct grid *g, double radius);
     int (*shares)(const struct grid *g, const struct domain *d, const struct grains *grains,
                   int i, struct share *out);
+    double (*width)(double radius);
     void (*init)(struct scene *s);
     const struct key *keys;
+    const int *displaces;
 };
 
 enum { GRAINS = 3000 };
 static vec3 positions[GRAINS];
 static double radii[GRAINS];
-
-static struct grid make_grid(const struct domain *d)
-{
-    struct grid g = {.volume = 1.0};
-    for (int a = 0; a < 3; a++) {
-        g.n[a] = d->cells[a];
-        g.h[a] = d->size[a] / d->cells[a];
-        g.volume *= g.h[a];
-    }
-    g.sj = g.n[0] + 2;
-    g.sk = g.sj * (g.n[1] + 2);
-    g.total = (size_t)g.sk * (size_t)(g.n[2] + 2);
-    return g;
-}
 
 static bool interior(const struct grid *g, int c)
 {
@@ -224,7 +217,8 @@ static double place_grains(gsl_rng *rng, const struct domain *d, const struct gr
 static void test_answer(const struct answer *answer, const struct domain *d, const char *what)
 {
     gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
-    const struct grid g = make_grid(d);
+    struct grid g;
+    grid_create(&g, d);
     const double volume = place_grains(rng, d, &g);
     const struct grains grains = {.n = GRAINS, .pos = positions, .radius = radii};
     double worst = 0.0, least = 1.0;
@@ -258,6 +252,173 @@ static void test_answer(const struct answer *answer, const struct domain *d, con
     gsl_rng_free(rng);
 }
 
+/* All of an answer: the shares of n grains, and the Gaussian. */
+struct seen {
+    const struct answer *answer;
+    struct grid g;
+    int reach, *n_shares;
+    struct share *shares;
+    struct spread spread;
+    struct diffuse *diffuse;
+};
+
+static struct seen see(const struct answer *answer, const struct domain *d,
+                       const struct grains *grains)
+{
+    struct seen s = {.answer = answer, .reach = 1};
+    double largest = 0.0;
+    grid_create(&s.g, d);
+    for (int n = 0; n < grains->n; n++)
+        largest = fmax(largest, grains->radius[n]);
+    s.reach = answer->reach(&s.g, largest);
+    s.shares = xalloc((size_t)grains->n * s.reach, sizeof *s.shares);
+    s.n_shares = xalloc((size_t)grains->n, sizeof *s.n_shares);
+    for (int n = 0; n < grains->n; n++)
+        s.n_shares[n] = answer->shares(&s.g, d, grains, n, &s.shares[(size_t)n * s.reach]);
+    if (answer->width(largest) > 0.0)
+        s.diffuse = diffuse_create(&s.g, d, answer->width(largest));
+    spread_create(&s.spread, &s.g);
+    spread_prepare(&s.spread, grains->n, s.reach, s.n_shares, s.shares);
+    return s;
+}
+
+static void see_free(struct seen *s)
+{
+    xfree(s->shares);
+    xfree(s->n_shares);
+    spread_free(&s->spread);
+    diffuse_free(s->diffuse);
+}
+
+static void see_spread(struct seen *s, const double *value, double *out)
+{
+    spread_one(&s->spread, value, out);
+    if (s->diffuse)
+        diffuse_apply(s->diffuse, out);
+}
+
+/* What grain n feels of a field that has been diffused. */
+static double see_felt(const struct seen *s, const double *field, int n)
+{
+    double sum = 0.0;
+    for (int k = 0; k < s->n_shares[n]; k++)
+        sum += s->shares[(size_t)n * s->reach + k].weight *
+               field[s->shares[(size_t)n * s->reach + k].cell];
+    return sum;
+}
+
+/* Volume with the Gaussian, and the two ways of a random exchange. */
+static void test_exchange(const struct answer *answer, const struct domain *d, const char *what)
+{
+    gsl_rng *const rng = gsl_rng_alloc(gsl_rng_ranlxs0);
+    struct grid g;
+    grid_create(&g, d);
+    const double volume = place_grains(rng, d, &g);
+    const struct grains grains = {.n = GRAINS, .pos = positions, .radius = radii};
+    struct seen s = see(answer, d, &grains);
+    double *const out = grid_field(&g), *const field = grid_field(&g);
+    double value[GRAINS], felt = 0.0, given = 0.0, size = 0.0;
+    for (int n = 0; n < GRAINS; n++)
+        value[n] = 4.0 / 3.0 * pi * pow(radii[n], 3);
+    see_spread(&s, value, out);
+    double least = 0.0;
+    for (size_t c = 0; c < g.total; c++)
+        least = fmin(least, out[c]);
+    check(fabs(sum_blocks(out, g.total) / volume - 1.0) <= 1e-12 && least >= 0.0,
+          "%s, %s: volume spread, error %.1e", answer->name, what,
+          sum_blocks(out, g.total) / volume - 1.0);
+    for (int n = 0; n < GRAINS; n++)
+        value[n] = uniform(rng, -1.0, 1.0);
+    for (size_t c = 0; c < g.total; c++)
+        field[c] = interior(&g, (int)c) ? uniform(rng, -1.0, 1.0) : 0.0;
+    see_spread(&s, value, out);
+    for (size_t c = 0; c < g.total; c++)
+        given += out[c] * field[c];
+    if (s.diffuse)
+        diffuse_apply(s.diffuse, field);
+    for (int n = 0; n < GRAINS; n++) {
+        felt += value[n] * see_felt(&s, field, n);
+        size += fabs(value[n] * see_felt(&s, field, n));
+    }
+    check(fabs(felt - given) <= 1e-13 * size,
+          "%s, %s: felt and given by the same weights, %.1e", answer->name, what,
+          (felt - given) / size);
+    xfree(out);
+    xfree(field);
+    see_free(&s);
+    gsl_rng_free(rng);
+}
+
+/* Grains on a lattice that fills the box, mirrored in its walls: the fluid fraction is even. */
+static void test_even(const struct answer *answer, const struct domain *d, const char *what)
+{
+    enum { PER_CELL = 2 };
+    struct grid g;
+    grid_create(&g, d);
+    const int m[3] = {PER_CELL * g.n[0], PER_CELL * g.n[1], PER_CELL * g.n[2]};
+    struct grains grains = {.n = m[0] * m[1] * m[2]};
+    grains.pos = xalloc((size_t)grains.n, sizeof *grains.pos);
+    grains.radius = xalloc((size_t)grains.n, sizeof *grains.radius);
+    double *const value = xalloc((size_t)grains.n, sizeof *value), *const out = grid_field(&g);
+    for (int n = 0; n < grains.n; n++) {
+        const double at[3] = {n % m[0] + 0.5, n / m[0] % m[1] + 0.5, n / (m[0] * m[1]) + 0.5};
+        grains.pos[n] =
+            v3(at[0] * d->size[0] / m[0], at[1] * d->size[1] / m[1], at[2] * d->size[2] / m[2]);
+        grains.radius[n] = 0.23 * g.h[0];
+        value[n] = 1.0;
+    }
+    struct seen s = see(answer, d, &grains);
+    see_spread(&s, value, out);
+    const double mean = pow(PER_CELL, 3);
+    double worst = 0.0;
+    for (size_t c = 0; c < g.total; c++)
+        if (interior(&g, (int)c))
+            worst = fmax(worst, fabs(out[c] / mean - 1.0));
+    check(worst <= 1e-12, "%s, %s: an even lattice is seen as even, up to its sides, %.1e",
+          answer->name, what, worst);
+    see_free(&s);
+    xfree(grains.pos);
+    xfree(grains.radius);
+    xfree(value);
+    xfree(out);
+}
+
+/* A field linear in space, felt by grains far from the sides: largest error over a cell's step. */
+static void test_linear(const struct answer *answer)
+{
+    const struct domain d = {.size = {1.1, 1.3, 1.5}, .cells = {44, 40, 36}};
+    gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
+    const vec3 slope = v3(1.7, -2.3, 0.9);
+    const struct grains grains = {.n = 200, .pos = positions, .radius = radii};
+    struct grid g;
+    grid_create(&g, &d);
+    for (int n = 0; n < grains.n; n++) {
+        positions[n] =
+            v3(uniform(rng, 0.45, 0.65), uniform(rng, 0.55, 0.75), uniform(rng, 0.65, 0.85));
+        radii[n] = 0.45 * g.h[0];
+    }
+    struct seen s = see(answer, &d, &grains);
+    double *const field = grid_field(&g), worst = 0.0;
+    for (int k = 1; k <= g.n[2]; k++)
+        for (int j = 1; j <= g.n[1]; j++)
+            for (int i = 1; i <= g.n[0]; i++)
+                field[cell(&g, i, j, k)] = v3_dot(
+                    slope, v3((i - 0.5) * g.h[0], (j - 0.5) * g.h[1], (k - 0.5) * g.h[2]));
+    if (s.diffuse)
+        diffuse_apply(s.diffuse, field);
+    for (int n = 0; n < grains.n; n++)
+        worst = fmax(worst, fabs(see_felt(&s, field, n) - v3_dot(slope, positions[n])));
+    worst /= v3_norm(slope) * g.h[0];
+    const bool exact =
+        strcmp(answer->name, "trilinear") == 0 || strcmp(answer->name, "gaussian") == 0;
+    check(worst <= (exact ? 1e-11 : 1.0),
+          "%s: a linear field is felt within %.1e of a cell's step%s", answer->name, worst,
+          exact ? " (exactly)" : "");
+    xfree(field);
+    see_free(&s);
+    gsl_rng_free(rng);
+}
+
 static const struct domain walls = {.size = {0.01, 0.012, 0.03}, .cells = {5, 6, 15}};
 static const struct domain periodic = {
     .size = {0.01, 0.012, 0.03}, .cells = {5, 6, 15}, .periodic = {true, true, true}};
@@ -269,6 +430,8 @@ static void visit(const char *name, void *object)
     struct answer a = {.name = name};
     if (!answers_symbol(object, "porosity_reach", &a.reach, sizeof a.reach) ||
         !answers_symbol(object, "porosity_shares", &a.shares, sizeof a.shares) ||
+        !answers_symbol(object, "porosity_width", &a.width, sizeof a.width) ||
+        !answers_symbol(object, "porosity_displaces", &a.displaces, sizeof a.displaces) ||
         !answers_symbol(object, "porosity_init", &a.init, sizeof a.init) ||
         !answers_symbol(object, "porosity_keys", &a.keys, sizeof a.keys))
         return;
@@ -279,11 +442,19 @@ static void visit(const char *name, void *object)
     test_answer(&a, &walls, "walls");
     test_answer(&a, &periodic, "periodic");
     test_answer(&a, &flat, "one cell thick");
+    test_exchange(&a, &walls, "walls");
+    test_exchange(&a, &periodic, "periodic");
+    test_exchange(&a, &flat, "one cell thick");
+    test_even(&a, &walls, "walls");
+    test_even(&a, &periodic, "periodic");
+    test_even(&a, &flat, "one cell thick");
+    test_linear(&a);
     const double since = wall_clock();
     const struct domain box = {.size = {1.0, 1.0, 1.0}, .cells = {20, 20, 20}};
-    const struct grid g = make_grid(&box);
+    struct grid g;
+    grid_create(&g, &box);
     gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
-    struct share out[27];
+    struct share *const out = xalloc((size_t)a.reach(&g, 0.25 * g.h[0]), sizeof *out);
     double sum = 0.0;
     for (int n = 0; n < GRAINS; n++) {
         positions[n] =
@@ -295,6 +466,7 @@ static void visit(const char *name, void *object)
         for (int n = 0; n < GRAINS; n++)
             sum += a.shares(&g, &box, &grains, n, out);
     gsl_rng_free(rng);
+    xfree(out);
     printf("    %s: %.0f ns per grain at cells of 2 diameters, %.2f cells per grain\n", name,
            (wall_clock() - since) / (20 * GRAINS) * 1e9, sum / (20 * GRAINS));
 }
