@@ -36,7 +36,8 @@ static void test_sums(gsl_rng *rng)
         got[c] = grid_field(&g);
     }
     for (int i = 0; i < N; i++) {
-        const vec3 x = v3(uniform(rng, -0.1, 1.1), uniform(rng, -0.1, 2.1), uniform(rng, -0.1, 3.1));
+        const vec3 x =
+            v3(uniform(rng, -0.1, 1.1), uniform(rng, -0.1, 2.1), uniform(rng, -0.1, 3.1));
         n_shares[i] = shares_trilinear(&g, &d, x, &shares[(size_t)i * REACH]);
         value[i] = uniform(rng, 0.1, 1.0);
         for (int c = 0; c < 6; c++)
@@ -107,7 +108,8 @@ static void test_diffusion(gsl_rng *rng, const struct domain *d, double width)
         int m[3];
         double rate = 0.0;
         for (int a = 0; a < 3; a++) {
-            m[a] = (int)gsl_rng_uniform_int(rng, (unsigned long)(1 + d->cells[a] / (1 + trial)));
+            m[a] =
+                (int)gsl_rng_uniform_int(rng, (unsigned long)(1 + d->cells[a] / (1 + trial)));
             rate += eigenvalue(&g, d, a, m[a]);
         }
         const double factor = exp(-0.5 * width * width * rate);
@@ -120,10 +122,11 @@ static void test_diffusion(gsl_rng *rng, const struct domain *d, double width)
         for (int k = 1; k <= g.n[2]; k++)
             for (int j = 1; j <= g.n[1]; j++)
                 for (int i = 1; i <= g.n[0]; i++)
-                    worst = fmax(worst, fabs(x[cell(&g, i, j, k)] - factor * y[cell(&g, i, j, k)]));
+                    worst =
+                        fmax(worst, fabs(x[cell(&g, i, j, k)] - factor * y[cell(&g, i, j, k)]));
     }
-    check(worst < 2e-12, "%dx%dx%d, width %g cells: modes decay as exp(t L), error %.1e", g.n[0],
-          g.n[1], g.n[2], width / g.h[0], worst);
+    check(worst < 2e-12, "%dx%dx%d, width %g cells: modes decay as exp(t L), error %.1e",
+          g.n[0], g.n[1], g.n[2], width / g.h[0], worst);
     for (size_t c = 0; c < g.total; c++) {
         x[c] = uniform(rng, 0.0, 1.0);
         y[c] = gsl_rng_uniform(rng) < 0.02 ? 1.0 : 0.0;
