@@ -12,10 +12,11 @@
  * Misprints of the review mended here: eq. (7) has the tangential overlap under the root of k_t
  * (it is the normal one); eq. (10) has (1 - nu) for (2 - nu) (G* 2.4 times too large at nu =
  * 0.3); eqs (9), (10) name body i twice. zeta gives the restitution asked for although the
- * contact does not pull (restitution.c). */
+ * contact does not pull (restitution.c), or is given. */
 #include "contact.h"
 
-#include "../solver/restitution.h"
+#include "../solver/elastic.h"
+#include "spring.h"
 
 const struct about contact_about = {
     .name = "hertz_mindlin",
@@ -24,24 +25,11 @@ const struct about contact_about = {
     .source = "[Hertz1882], [Mindlin49], [Tsuji92], [Thornton13]",
     .range = "elastic spheres, overlaps below a few % of the radius"};
 
-const struct key contact_keys[] = {
-    {"material", "young", KEY_REAL, "Pa", "(0, inf)", NULL, "Young's modulus"},
-    {"material", "poisson", KEY_REAL, "1", "(-1, 0.5]", NULL, "Poisson's ratio"},
-    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL,
-     "rebound speed over impact speed"},
-    {"material", "friction", KEY_REAL, "1", "[0, inf)", NULL, "Coulomb's coefficient"},
-    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed",
-     "restitution of a contact"},
-    {"pair", "friction", KEY_REAL, "1", "mixed | [0, inf)", "mixed", "friction of a contact"},
-    {0},
-};
+const struct key contact_keys[] = {ELASTIC_KEYS, DAMPING_KEYS, FRICTION_KEYS, {0}};
 
 const int contact_history = 4; /* tangential force of the spring, N; depth, m */
 
-enum { PAIRS = 256, MATERIALS = 16 };
-static int materials;
-static double e_star[PAIRS], g_star[PAIRS];
-static double young[MATERIALS], poisson[MATERIALS];
+static struct elastic elastic;
 
 /* Of a pair of materials, as the loop needs them. */
 struct constants {
@@ -51,34 +39,23 @@ struct constants {
     real ct;    /* Pa^1/2, 2 sqrt(5/6) zeta sqrt(8 G*) */
     real mu;
 };
-static struct constants constants[PAIRS];
+static struct constants constants[PAIRS_MAX];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
     const double tsuji = 2.0 * sqrt(5.0 / 6.0);
-    double restitution[PAIRS], friction[PAIRS];
-    materials = m->n;
-    if (m->n > MATERIALS) {
-        scene_error(s, "material", NULL, NULL, "at most %d materials", MATERIALS);
+    double zeta[PAIRS_MAX], friction[PAIRS_MAX];
+    if (!materials_fit(s, m))
         return;
-    }
-    for (int a = 0; a < m->n; a++) {
-        young[a] = scene_real(s, "material", m->name[a], "young");
-        poisson[a] = scene_real(s, "material", m->name[a], "poisson");
-    }
-    materials_pair_values(s, m, "restitution", MIX_GEOMETRIC, restitution);
+    elastic_read(s, m, &elastic);
+    elastic_damping(s, m, (double)NAN, false, zeta);
     materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
-        const int a = p / m->n, b = p % m->n;
-        const double na = poisson[a], nb = poisson[b];
-        e_star[p] = 1.0 / ((1.0 - na * na) / young[a] + (1.0 - nb * nb) / young[b]);
-        g_star[p] = 1.0 / (2.0 * (2.0 - na) * (1.0 + na) / young[a] +
-                           2.0 * (2.0 - nb) * (1.0 + nb) / young[b]);
-        const double damping = tsuji * damping_ratio(restitution[p]);
-        constants[p] = (struct constants){.hertz = (real)(4.0 / 3.0 * e_star[p]),
-                                          .shear = (real)(8.0 * g_star[p]),
-                                          .cn = (real)(damping * sqrt(2.0 * e_star[p])),
-                                          .ct = (real)(damping * sqrt(8.0 * g_star[p])),
+        const double damping = tsuji * zeta[p];
+        constants[p] = (struct constants){.hertz = (real)(4.0 / 3.0 * elastic.e_star[p]),
+                                          .shear = (real)(8.0 * elastic.g_star[p]),
+                                          .cn = (real)(damping * sqrt(2.0 * elastic.e_star[p])),
+                                          .ct = (real)(damping * sqrt(8.0 * elastic.g_star[p])),
                                           .mu = (real)friction[p]};
     }
 }
@@ -93,39 +70,26 @@ forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const struct constants k = one ? only : constants[t->pair[c]];
-        const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
+        const struct arrow n = touch_normal(t, c);
+        const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
         const real a = sqrt(t->r_eff[c] * depth), damping = t->start[c] * sqrt(a * t->m_eff[c]);
         const real kn = k.hertz * a, kt = k.shear * a;
         const real normal = kn * depth - k.cn * damping * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
-        /* the force of the spring: scaled down in unloading, turned, stretched */
-        const real v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
-        const real vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
-        const real along = hx[c] * nx + hy[c] * ny + hz[c] * nz;
-        const real before = hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c];
-        const real px = hx[c] - along * nx, py = hy[c] - along * ny, pz = hz[c] - along * nz;
-        const real after = px * px + py * py + pz * pz;
-        const bool unloads = depth < depth_old[c];
-        const real up = unloads ? depth * before : before;
-        const real down = unloads ? depth_old[c] * after : after;
-        const real keep = down > 0.0 ? sqrt(up / down) : 0.0;
-        const real ex = keep * px - kt * vx * dt, ey = keep * py - kt * vy * dt,
-                   ez = keep * pz - kt * vz * dt;
-        const real ct = k.ct * damping;
-        const real qx = ex - ct * vx, qy = ey - ct * vy, qz = ez - ct * vz;
-        const real q = sqrt(qx * qx + qy * qy + qz * qz), limit = k.mu * fn;
-        const bool slides = q > limit;
-        const real cut = slides ? limit / q : 1.0;
-        const real fx = cut * qx, fy = cut * qy, fz = cut * qz;
-        /* where it slides, the spring is what gives the force at the limit */
-        hx[c] = slides ? fx + ct * vx : ex;
-        hy[c] = slides ? fy + ct * vy : ey;
-        hz[c] = slides ? fz + ct * vz : ez;
+        const bool unloads = depth < depth_old[c]; /* k_t falls with sqrt(depth) */
+        const struct arrow held =
+            spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, unloads ? depth : 1.0,
+                        unloads ? depth_old[c] : 1.0);
+        const struct spring f = spring_cut(arrow_axpy(held, -kt * dt, v),
+                                           arrow_scale(-k.ct * damping, v), k.mu * fn);
+        hx[c] = f.held.x;
+        hy[c] = f.held.y;
+        hz[c] = f.held.z;
         depth_old[c] = depth;
-        t->fx[c] = fn * nx + fx;
-        t->fy[c] = fn * ny + fy;
-        t->fz[c] = fn * nz + fz;
+        t->fx[c] = fn * n.x + f.total.x;
+        t->fy[c] = fn * n.y + f.total.y;
+        t->fz[c] = fn * n.z + f.total.z;
         t->fn[c] = fn;
         t->kn[c] = kn;
     }
@@ -133,7 +97,7 @@ forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
 
 void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
-    if (materials == 1)
+    if (elastic.n == 1)
         forces(t, history, true, constants[0]);
     else
         forces(t, history, false, constants[0]);
@@ -151,17 +115,12 @@ void contact_energy(struct touch *t, real (*history)[TOUCH])
     }
 }
 
-/* [Hertz1882]: t_c = 2.87 (m*^2/(R* E*^2 v))^(1/5) */
 double contact_duration(int a, int b, double m_eff, double r_eff, double v)
 {
-    const double e = e_star[a * materials + b];
-    return 2.87 * pow(m_eff * m_eff / (r_eff * e * e * v), 0.2);
+    return elastic_duration(&elastic, a, b, m_eff, r_eff, v);
 }
 
-/* [LiXuThornton05]: pi r sqrt(rho/G)/(0.1631 nu + 0.8766) */
 double contact_rayleigh(int a, double radius, double density)
 {
-    const double shear = young[a] / (2.0 * (1.0 + poisson[a]));
-    return 3.14159265358979323846 * radius * sqrt(density / shear) /
-           (0.1631 * poisson[a] + 0.8766);
+    return elastic_rayleigh(&elastic, a, radius, density);
 }

@@ -1,14 +1,17 @@
 /* contact/linear.c - linear spring and dashpot, normal and tangential, with Coulomb's limit.
  *
- *   F_n = k_n depth - 2 zeta sqrt(k_n m_eff) v_n, cut at zero                [CundallStrack79]
- *   F_t = -k_t s - 2 zeta sqrt(k_t m_eff) v_t,   |F_t| <= mu F_n,  ds = v_t dt
- * with k_n = k_i k_j/(k_i + k_j), springs in series. The review's eqs (4), (5) print the
- * inverse, (k_i + k_j)/(k_i k_j), whose unit is m/N. zeta gives the restitution asked for
- * although the contact does not pull (restitution.c). The spring s turns with the contact plane
- * and is cut where the contact slides. */
+ *   F_n = k_n depth - c_n v_n, cut at zero                                    [CundallStrack79]
+ *   F_t = -k_t s - c_t v_t,   |F_t| <= mu F_n,  ds = v_t dt
+ * with k_n = k_i k_j/(k_i + k_j), springs in series, or as given for the pair. The review's eqs
+ * (4), (5) print the inverse, (k_i + k_j)/(k_i k_j), whose unit is m/N. Dashpots either from
+ * restitution, c = 2 zeta sqrt(k m*), where zeta gives the restitution asked for although the
+ * contact does not pull (restitution.c), or from damping_ratio (that zeta), or constant
+ * coefficients c_n, c_t as given [Li24, eqs 13, 14]. What the tangential spring bears turns with
+ * the contact plane and is cut where the contact slides. */
 #include "contact.h"
 
-#include "../solver/restitution.h"
+#include "../solver/elastic.h"
+#include "spring.h"
 
 const struct about contact_about = {
     .name = "linear",
@@ -22,53 +25,68 @@ const struct key contact_keys[] = {
      "normal stiffness of a body; a pair has the two in series"},
     {"material", "stiffness_ratio", KEY_REAL, "1", "[0, 1]", "0.2857142857142857",
      "tangential over normal stiffness"},
-    {"material", "restitution", KEY_REAL, "1", "(0, 1]", NULL,
-     "rebound speed over impact speed"},
-    {"material", "friction", KEY_REAL, "1", "[0, inf)", NULL, "Coulomb's coefficient"},
+    DAMPING_KEYS,
+    {"material", "damping", KEY_REAL, "N s m-1", "none | [0, inf)", "none",
+     "normal damping coefficient of a contact, instead of restitution"},
+    {"material", "damping_tangential", KEY_REAL, "N s m-1", "damping | [0, inf)", "damping",
+     "tangential damping coefficient; damping: the normal one"},
+    FRICTION_KEYS,
     {"pair", "stiffness", KEY_REAL, "N m-1", "mixed | (0, inf)", "mixed",
      "normal stiffness of a contact; mixed: the two bodies in series"},
     {"pair", "stiffness_ratio", KEY_REAL, "1", "mixed | [0, 1]", "mixed",
      "tangential over normal stiffness of a contact"},
-    {"pair", "restitution", KEY_REAL, "1", "mixed | (0, 1]", "mixed",
-     "restitution of a contact"},
-    {"pair", "friction", KEY_REAL, "1", "mixed | [0, inf)", "mixed", "friction of a contact"},
+    {"pair", "damping", KEY_REAL, "N s m-1", "mixed | none | [0, inf)", "mixed",
+     "normal damping coefficient of a contact"},
+    {"pair", "damping_tangential", KEY_REAL, "N s m-1", "mixed | damping | [0, inf)", "mixed",
+     "tangential damping coefficient of a contact"},
     {0},
 };
 
-const int contact_history = 3; /* s, m */
+const int contact_history = 3; /* what the tangential spring bears, N */
 
-enum { PAIRS = 256 }; /* 16 materials */
 static int materials;
-static double k_n[PAIRS];
+static double k_n[PAIRS_MAX];
 
 /* Of a pair of materials, as the loop needs them. */
 struct constants {
     real kn, kt; /* N/m */
-    real slack;  /* m/N, 1/kt; 0 without a tangential spring */
     real cn, ct; /* dashpots per sqrt(m*): 2 zeta sqrt(k) */
+    real bn, bt; /* N s/m, dashpots besides */
     real mu;
 };
-static struct constants constants[PAIRS];
+static struct constants constants[PAIRS_MAX];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
-    double restitution[PAIRS], ratio[PAIRS], friction[PAIRS];
+    double zeta[PAIRS_MAX], bn[PAIRS_MAX], bt[PAIRS_MAX], ratio[PAIRS_MAX], friction[PAIRS_MAX];
     materials = m->n;
-    if (m->n * m->n > PAIRS) {
-        scene_error(s, "material", NULL, NULL, "at most 16 materials");
+    if (!materials_fit(s, m))
         return;
-    }
     materials_pair_values(s, m, "stiffness", MIX_SERIES, k_n);
     materials_pair_values(s, m, "stiffness_ratio", MIX_GEOMETRIC, ratio);
-    materials_pair_values(s, m, "restitution", MIX_GEOMETRIC, restitution);
+    materials_pair_optional(s, m, "damping", "none", MIX_GEOMETRIC, bn, NULL);
+    materials_pair_optional(s, m, "damping_tangential", "damping", MIX_GEOMETRIC, bt, NULL);
+    elastic_damping(s, m, (double)NAN, true, zeta);
     materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
+    for (int p = 0; p < m->n * m->n; p++) {
+        const char *const name = m->name[p / m->n];
+        if (isnan(bn[p]) && isnan(zeta[p]))
+            scene_error(s, "material", name, "restitution",
+                        "must be given, or damping_ratio or damping instead");
+        else if (!isnan(bn[p]) && !isnan(zeta[p]))
+            scene_error(s, "material", name, "damping",
+                        "restitution or damping_ratio is given too: give one of the three");
+    }
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
-        const double kt = ratio[p] * k_n[p], damping = 2.0 * damping_ratio(restitution[p]);
+        const double kt = ratio[p] * k_n[p];
+        const bool by_zeta = !isnan(zeta[p]);
+        const double damping = by_zeta ? 2.0 * zeta[p] : 0.0, b = by_zeta ? 0.0 : bn[p];
         constants[p] = (struct constants){.kn = (real)k_n[p],
                                           .kt = (real)kt,
-                                          .slack = (real)(kt > 0.0 ? 1.0 / kt : 0.0),
                                           .cn = (real)(damping * sqrt(k_n[p])),
                                           .ct = (real)(damping * sqrt(kt)),
+                                          .bn = (real)b,
+                                          .bt = (real)(by_zeta || isnan(bt[p]) ? b : bt[p]),
                                           .mu = (real)friction[p]};
     }
 }
@@ -77,41 +95,29 @@ void contact_init(struct scene *s, const struct materials *m)
 static inline __attribute__((always_inline)) void
 forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
 {
-    real *const restrict sx = history[0], *const restrict sy = history[1];
-    real *const restrict sz = history[2];
+    real *const restrict hx = history[0], *const restrict hy = history[1];
+    real *const restrict hz = history[2];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const struct constants k = one ? only : constants[t->pair[c]];
-        const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
-        const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const real damping = t->start[c] * sqrt(t->m_eff[c]);
-        const real normal = k.kn * depth - k.cn * damping * t->vn[c];
+        const struct arrow n = touch_normal(t, c);
+        const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
+        const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0, start = t->start[c];
+        const real root = sqrt(t->m_eff[c]);
+        const real normal = k.kn * depth - start * (k.cn * root + k.bn) * t->vn[c];
         const real push = normal > 0.0 ? normal : 0.0;
         const real fn = depth > 0.0 ? push : 0.0;
-        /* the spring of the last step, turned into the plane of this one, and its stretch */
-        const real v = t->vx[c] * nx + t->vy[c] * ny + t->vz[c] * nz;
-        const real vx = t->vx[c] - v * nx, vy = t->vy[c] - v * ny, vz = t->vz[c] - v * nz;
-        const real along = sx[c] * nx + sy[c] * ny + sz[c] * nz;
-        const real before = sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c];
-        const real px = sx[c] - along * nx, py = sy[c] - along * ny, pz = sz[c] - along * nz;
-        const real after = px * px + py * py + pz * pz;
-        const real turn = after > 0.0 ? sqrt(before / after) : 0.0;
-        const real ex = turn * px + vx * dt, ey = turn * py + vy * dt, ez = turn * pz + vz * dt;
-        const real ct = k.ct * damping;
-        const real qx = -k.kt * ex - ct * vx, qy = -k.kt * ey - ct * vy,
-                   qz = -k.kt * ez - ct * vz;
-        const real q = sqrt(qx * qx + qy * qy + qz * qz), limit = k.mu * fn;
-        const bool slides = q > limit;
-        const real cut = slides ? limit / q : 1.0;
-        const real fx = cut * qx, fy = cut * qy, fz = cut * qz;
-        /* where it slides, the spring is what gives the force at the limit */
-        sx[c] = slides ? -(fx + ct * vx) * k.slack : ex;
-        sy[c] = slides ? -(fy + ct * vy) * k.slack : ey;
-        sz[c] = slides ? -(fz + ct * vz) * k.slack : ez;
-        t->fx[c] = fn * nx + fx;
-        t->fy[c] = fn * ny + fy;
-        t->fz[c] = fn * nz + fz;
+        const struct arrow held = spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, 1.0, 1.0);
+        const struct spring f =
+            spring_cut(arrow_axpy(held, -k.kt * dt, v),
+                       arrow_scale(-start * (k.ct * root + k.bt), v), k.mu * fn);
+        hx[c] = f.held.x;
+        hy[c] = f.held.y;
+        hz[c] = f.held.z;
+        t->fx[c] = fn * n.x + f.total.x;
+        t->fy[c] = fn * n.y + f.total.y;
+        t->fz[c] = fn * n.z + f.total.z;
         t->fn[c] = fn;
         t->kn[c] = k.kn;
     }
@@ -127,12 +133,13 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
 
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
-    const real *const sx = history[0], *const sy = history[1], *const sz = history[2];
+    const real *const hx = history[0], *const hy = history[1], *const hz = history[2];
     for (int c = 0; c < t->n; c++) {
         const struct constants *const k = &constants[t->pair[c]];
         const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
-        const double stretch = (double)(sx[c] * sx[c] + sy[c] * sy[c] + sz[c] * sz[c]);
-        t->energy[c] = 0.5 * ((double)k->kn * depth * depth + (double)k->kt * stretch);
+        const double stored = (double)(hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c]);
+        t->energy[c] = 0.5 * (double)k->kn * depth * depth +
+                       (k->kt > 0.0 ? 0.5 * stored / (double)k->kt : 0.0);
     }
 }
 

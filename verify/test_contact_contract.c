@@ -34,7 +34,8 @@ static struct law start(void *answer, const char *restitution)
     char *set[64];
     int n = 0;
     for (const struct key *k = law.keys; k->section && n < 64; k++)
-        if (strcmp(k->section, "material") == 0 && !k->standard)
+        if (strcmp(k->section, "material") == 0 &&
+            (!k->standard || strcmp(k->name, "restitution") == 0))
             set[n++] =
                 xprintf("material m.%s=%s", k->name,
                         strcmp(k->name, "restitution") == 0 ? restitution : plausible(k));
