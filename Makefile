@@ -73,22 +73,25 @@ FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
 $(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
 
-$(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB)
-	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -o $@ $< $(LIB) $(LIBS)
-
 # A test holds the whole library and one answer per slot: the first of each folder that its line
 # "slots: contact/linear ..." names, or else none. It may load others (-Bsymbolic keeps each
 # to its own symbols).
 slots_of = $(shell for d in $(SLOT_DIRS); do a=$$d/none; [ $$d = shapes ] && a=$$d/sphere; \
-           for s in $$(sed -n 's|^/. slots: \(.*\) ./$$|\1|p' verify/$(1).c); do \
+           for s in $$(sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c); do \
            [ "$${s%/*}" = $$d ] && a=$$s; done; echo $$a; done)
 .SECONDEXPANSION:
 $(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED) \
-                   $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,$$*)))
+                   $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,verify/$$*)))
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,$*)) \
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,verify/$*)) \
 	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
+
+# A bench likewise, without what it does not refer to.
+$(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB) \
+                  $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,bench/$$*)))
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,bench/$*)) \
+	  $(LIB) $(LIBS)
 
 $(BUILD)/provenance.h: FORCE
 	@mkdir -p $(@D)

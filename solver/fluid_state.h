@@ -6,7 +6,8 @@
 #include "sim.h"
 
 /* Reads domain.cells, density, viscosity and dt of [fluid], makes the grid, allocates and
- * registers the fields of struct fluid, and the coupling. dt = auto takes half of the limits at
+ * registers the fields of struct fluid, and the coupling; of a bare fluid (fluid.bare, set
+ * before) only velocity and pressure. dt = auto takes half of the limits at
  * the largest velocity of [flow]. False if the scene has errors: nothing is allocated then. */
 bool fluid_state_create(struct sim *s, struct scene *scene);
 void fluid_state_free(struct sim *s);
@@ -32,17 +33,34 @@ static inline int face_last(const struct grid *g, int a, int b)
 void fluid_pressure_sides(const struct domain *d, enum poisson_side side[6]);
 bool side_open(const struct domain *d, int side); /* outflow or head: pressure given */
 
+/* 1/s; largest inflow velocity at time t (at porosity 0.4 among grains) over the cell. */
+double fluid_entry_rate(const struct sim *s, double t);
+
 /* m/s; mean superficial velocity into the box at an inflow side at time t. */
 double fluid_inflow(const struct sim *s, int side, double t);
 
-/* Normal velocities on the faces of sides where they are given, ghosts of all components. */
+/* Normal velocities on the faces of sides where they are given at time t, ghosts of all
+ * components. */
 void fluid_velocity_sides(struct sim *s, double t);
+
+/* The same for a change of component a where nothing that is given changes. */
+void fluid_ghosts_of_change(const struct sim *s, int a, double *du);
+
+/* dp/dx_a on face c of an open side (end 0: low, 1: high), half a cell from p = 0. */
+static inline double fluid_gradient(const struct sim *s, const double *p, int a, int end, int c)
+{
+    return end ? -2.0 * p[c - s->grid.s[a]] / s->grid.h[a] : 2.0 * p[c] / s->grid.h[a];
+}
 
 /* Pressure on a side: the mean over its faces of p + G h/2, or of the value held. */
 double fluid_boundary_pressure(const struct sim *s, int side);
 
-/* Superficial divergence plus d(eps)/dt of cell c, 1/s. */
+/* Superficial divergence plus d(eps)/dt of cell c, 1/s; the latter by difference in time, or
+ * fluid.rate where there is one. */
 double fluid_divergence(const struct sim *s, int c);
+
+/* out = scale times that, on all cells; returns the largest eps u/h, 1/s. */
+double fluid_divergences(const struct sim *s, double scale, double *out);
 
 /* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is
  * not finite or, if `limited`, where the Courant number passes COURANT_MOST. */

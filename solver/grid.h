@@ -14,6 +14,10 @@
 
 #include "domain.h"
 
+enum {
+    GRID_SMALL = 16384
+}; /* entries of a field, to which one thread is quicker than a team */
+
 struct grid {
     int n[3];      /* cells */
     double h[3];   /* m */

@@ -32,6 +32,8 @@ static void log_forces(FILE *out, const struct sim *s)
 {
     const struct coupling *const c = &s->coupling;
     const char *const word[2] = {"off", "on"};
+    if (s->fluid.equation)
+        fprintf(out, "  momentum  form %s\n", s->fluid.equation);
     fprintf(
         out,
         "  fluid     %d x %d x %d cells, %g kg/m3, %g Pa s, step %g s = %d steps of the "

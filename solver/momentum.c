@@ -2,171 +2,300 @@
  * order.
  *
  *   convection  -rho div(eps u u_a): the volume flux through a face of the control volume is
- * the mean of the two faces beside it; u_a there is the mean (centred), the upwind value, or
- * the upwind value with half of van Leer's slope [vanLeer74] stress      tau = mu (grad u +
- * grad u^T - 2/3 div u I), at centres and edges On the face of an open side the flow does not
- * change along the normal: no convection, and of the stress the part across. */
-#include "momentum.h"
+ *               the mean of the two faces beside it; u_a there is the mean (centred), the
+ *               upwind value, or that with half of van Leer's slope [vanLeer74]. On a side of
+ *               the box it is the value there.
+ *   stress      tau = mu (grad u + grad u^T - 2/3 div u I); with constant mu and form a,
+ *               div tau = mu (laplace(u) + grad(div u)/3), also on the grid
+ *
+ * On the face of an open side nothing changes along the normal: no convection, and of the
+ * stress no flux through the side. What flows back in comes from rest outside, at the pressure
+ * -rho u^2/2 (Bernoulli), so that a backflow feeds no energy in.
+ *
+ * Each thread takes a run of rows; the flux through the upper face of a row is kept as the
+ * lower one of the next row, that of a layer for the next layer. A flux is computed by the same
+ * formula wherever a run begins, so the bits do not depend on the number of threads. */
+#include "momentum_rows.h"
 
+#include <omp.h>
+#include <string.h>
+#include "diffusion.h"
 #include "fluid_state.h"
 
-void momentum_create(struct momentum *m, const struct grid *g, enum convection scheme)
+#define INLINE static inline __attribute__((always_inline))
+
+void momentum_create(struct momentum *m, const struct sim *s, enum convection scheme,
+                     enum form form, bool implicit)
 {
+    const struct grid *const g = &s->grid;
     m->scheme = scheme;
-    m->slope = grid_field(g);
-    m->div = grid_field(g);
+    m->form = form;
+    m->implicit = implicit;
+    for (int b = 0; b < 3; b++) {
+        const struct side *const side = &s->domain.side[2 * b];
+        const bool slip = side[0].kind == SIDE_SLIP && side[1].kind == SIDE_SLIP;
+        m->skip[b] = g->n[b] == 1 && (s->domain.periodic[b] || slip);
+    }
+    m->threads = omp_get_max_threads();
+    m->share = (size_t)g->sj * (3 * (size_t)(g->n[1] + 2) + 3 + 5) + 64;
+    m->buffer = xalloc(m->share * (size_t)m->threads, sizeof(double));
 }
 
 void momentum_free(struct momentum *m)
 {
-    xfree(m->slope);
-    xfree(m->div);
+    xfree(m->buffer);
 }
 
-bool face_solved(const struct sim *s, int a, int i)
+/* u on the face between u0 and u1, where w flows from u0 to u1 */
+INLINE double carried(enum convection scheme, double um, double u0, double u1, double u2,
+                      double w)
 {
-    if (s->domain.periodic[a])
-        return i <= s->grid.n[a];
-    if (i == 1)
-        return side_open(&s->domain, 2 * a);
-    if (i == s->grid.n[a] + 1)
-        return side_open(&s->domain, 2 * a + 1);
-    return true;
+    if (scheme == CONVECTION_CENTRED)
+        return 0.5 * (u0 + u1);
+    const double up = w > 0.0 ? u0 : u1;
+    if (scheme == CONVECTION_UPWIND)
+        return up;
+    const double ahead = w > 0.0 ? u1 - u0 : u0 - u1, behind = w > 0.0 ? u0 - um : u1 - u2;
+    const double product = ahead * behind;
+    const double slope = product > 0.0 ? product / (ahead + behind) : 0.0; /* half of it */
+    return up + slope;
 }
 
-static double van_leer(double a, double b)
+/* The rows that a flux is made of: u before, below, above and beyond the face, and the
+ * velocities beside it with their fluid fractions. */
+struct flux {
+    const double *um, *u0, *u1, *u2, *v1, *v2, *e1, *e2;
+    double scale; /* rho/(2 h) */
+};
+
+INLINE double volume(const struct flux *f, bool porous, int i)
 {
-    return a * b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+    return porous ? f->e1[i] * f->v1[i] + f->e2[i] * f->v2[i] : f->v1[i] + f->v2[i];
 }
 
-/* Slopes of u along direction b, where both neighbours exist; 0 on the rim, wrapped if
- * periodic. */
-static void slopes(const struct sim *s, const struct momentum *m, const double *u, int a, int b)
+INLINE double flux_one(const struct flux *f, bool porous, enum convection scheme, int i,
+                       double um, double u2)
 {
-    const struct grid *const g = &s->grid;
-    const int step = g->s[b];
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-    const bool rim =
-        a == b && !s->domain.periodic[b]; /* its last face has no neighbour beyond */
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k), n = b == 0 ? i : b == 1 ? j : k;
-                const bool inside = n <= g->n[b] && !(rim && n == 1);
-                m->slope[c] = inside ? van_leer(u[c] - u[c - step], u[c + step] - u[c]) : 0.0;
-            }
-    const int c1 = (b + 1) % 3, c2 = (b + 2) % 3;
-    for (int k = 1; k <= face_last(g, a, c2); k++)
-        for (int j = 1; j <= face_last(g, a, c1); j++) {
-            const int at = j * g->s[c1] + k * g->s[c2], n = g->n[b];
-            const bool wrap = s->domain.periodic[b];
-            m->slope[at] = wrap ? m->slope[at + n * step] : 0.0;
-            if (wrap || a != b)
-                m->slope[at + (n + 1) * step] = wrap ? m->slope[at + step] : 0.0;
-        }
+    const double w = f->scale * volume(f, porous, i);
+    return w * carried(scheme, um, f->u0[i], f->u1[i], u2, w);
 }
 
-/* u on the face between c and c + step, where the volume flux is w */
-static double advected(const struct momentum *m, const double *u, int c, int step, double w)
+INLINE void flux_loop(const struct flux *f, bool porous, enum convection scheme, int first,
+                      int last, double *restrict out)
 {
-    if (m->scheme == CONVECTION_CENTRED)
-        return 0.5 * (u[c] + u[c + step]);
-    const double half = m->scheme == CONVECTION_VAN_LEER ? 0.5 : 0.0;
-    return w > 0.0 ? u[c] + half * m->slope[c] : u[c + step] - half * m->slope[c + step];
+    for (int i = first; i <= last; i++)
+        out[i] = flux_one(f, porous, scheme, i, f->um[i], f->u2[i]);
 }
 
-void momentum_convection(const struct sim *s, struct momentum *m, int a, double *out)
+static void flux_row(const struct flux *f, bool porous, enum convection scheme, int first,
+                     int last, double *out)
 {
-    const struct fluid *const f = &s->fluid;
-    const struct grid *const g = &s->grid;
-    const double *const u = f->u[a];
-    const int sa = g->s[a];
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-    for (size_t c = 0; c < g->total; c++)
-        out[c] = 0.0;
-    for (int b = 0; b < 3; b++) {
-        const int sb = g->s[b];
-        const double *const v = f->u[b], *const e = f->eps_f[b];
-        const double scale = f->rho / g->h[b];
-        if (m->scheme == CONVECTION_VAN_LEER)
-            slopes(s, m, u, a, b);
-#pragma omp parallel for schedule(static)
-        for (int k = 1; k <= last[2]; k++)
-            for (int j = 1; j <= last[1]; j++)
-                for (int i = 1; i <= last[0]; i++) {
-                    const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                    if (!face_solved(s, a, n) ||
-                        (!s->domain.periodic[a] && (n == 1 || n == g->n[a] + 1)))
-                        continue;
-                    /* volume fluxes through the low and high face of the control volume */
-                    const int lo_1 = a == b ? c - sb : c - sa, hi_1 = a == b ? c : c + sb - sa;
-                    const int lo_2 = c, hi_2 = c + sb;
-                    const double w_lo = 0.5 * (e[lo_1] * v[lo_1] + e[lo_2] * v[lo_2]);
-                    const double w_hi = 0.5 * (e[hi_1] * v[hi_1] + e[hi_2] * v[hi_2]);
-                    out[c] -= scale * (w_hi * advected(m, u, c, sb, w_hi) -
-                                       w_lo * advected(m, u, c - sb, sb, w_lo));
-                }
+    if (scheme == CONVECTION_CENTRED) {
+        if (porous)
+            flux_loop(f, true, CONVECTION_CENTRED, first, last, out);
+        else
+            flux_loop(f, false, CONVECTION_CENTRED, first, last, out);
+    } else if (scheme == CONVECTION_VAN_LEER) {
+        if (porous)
+            flux_loop(f, true, CONVECTION_VAN_LEER, first, last, out);
+        else
+            flux_loop(f, false, CONVECTION_VAN_LEER, first, last, out);
+    } else if (porous) {
+        flux_loop(f, true, CONVECTION_UPWIND, first, last, out);
+    } else {
+        flux_loop(f, false, CONVECTION_UPWIND, first, last, out);
     }
 }
 
-void momentum_dilatation(const struct sim *s, struct momentum *m)
+/* The rows of the flux beyond row (j, k) of component a, in direction b. */
+static struct flux flux_rows(const struct sim *s, int a, int b, int j, int k, bool porous)
 {
     const struct grid *const g = &s->grid;
-    double *const *const u = s->fluid.u;
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= g->n[2]; k++)
-        for (int j = 1; j <= g->n[1]; j++)
-            for (int i = 1; i <= g->n[0]; i++) {
-                const int c = cell(g, i, j, k);
-                m->div[c] = 0.0;
-                for (int b = 0; b < 3; b++)
-                    m->div[c] += (u[b][c + g->s[b]] - u[b][c]) / g->h[b];
-            }
-    grid_ghosts(g, &s->domain, m->div);
+    const int c = cell(g, 0, j, k), sb = g->s[b], n = g->n[b];
+    const double *const u = s->fluid.u[a] + c, *const v = s->fluid.u[b] + c;
+    const int near = a == b ? 0 : sb, far = a == b ? sb : sb - g->s[a];
+    struct flux f = {.um = u - sb,
+                     .u0 = u,
+                     .u1 = u + sb,
+                     .u2 = u + 2 * sb,
+                     .v1 = v + near,
+                     .v2 = v + far,
+                     .scale = 0.5 * s->fluid.rho / g->h[b]};
+    if (porous) {
+        f.e1 = s->fluid.eps_f[b] + c + near;
+        f.e2 = s->fluid.eps_f[b] + c + far;
+    }
+    if (b == 0)
+        return f; /* its ends: flux_ends */
+    const int at = b == 1 ? j : k;
+    if (at == 0)
+        f.um = s->domain.periodic[b] ? u + (n - 1) * sb : u;
+    if (at == n)
+        f.u2 = s->domain.periodic[b] ? u + (2 - n) * sb : f.u1;
+    return f;
 }
 
-void momentum_viscous(const struct sim *s, const struct momentum *m, int a, double *out)
+/* Along x: the first and the last flux of a row, whose neighbours wrap around or do not exist.
+ */
+static void flux_ends(const struct sim *s, const struct flux *f, bool porous,
+                      enum convection scheme, int a, double *out)
 {
-    const struct fluid *const f = &s->fluid;
+    const int n = s->grid.n[0];
+    const double *const u = f->u0;
+    if (s->domain.periodic[0]) {
+        out[0] = flux_one(f, porous, scheme, 0, u[n - 1], u[2]);
+        out[n] = flux_one(f, porous, scheme, n, u[n - 1], u[2]);
+    } else if (a == 0) {
+        out[n] = flux_one(f, porous, scheme, n, u[n - 1], u[n + 1]);
+    } else { /* on the sides themselves */
+        out[0] = flux_one(f, porous, CONVECTION_CENTRED, 0, 0.0, 0.0);
+        out[n] = flux_one(f, porous, CONVECTION_CENTRED, n, 0.0, 0.0);
+    }
+}
+
+/* out[i], i = first - 1 (along x) or first, to last: rho w u_a/h through the upper face in
+ * direction b of the control volumes of row (j, k) of component a. */
+static void upper_flux(const struct sim *s, const struct momentum *m, int a, int b, int j,
+                       int k, bool porous, double *out)
+{
+    const int at[3] = {0, j, k};
+    const int first = inside_first(s, a, 0) - (b == 0), last = inside_last(s, 0);
+    const bool rim =
+        b > 0 && a != b && !s->domain.periodic[b] && (at[b] == 0 || at[b] == s->grid.n[b]);
+    const enum convection scheme = rim ? CONVECTION_CENTRED : m->scheme;
+    const struct flux f = flux_rows(s, a, b, j, k, porous);
+    flux_row(&f, porous, scheme, first, last, out);
+    if (b == 0)
+        flux_ends(s, &f, porous, scheme, a, out);
+}
+
+struct scratch momentum_scratch(const struct momentum *m, const struct grid *g, long first)
+{
+    double *at = m->buffer + m->share * (size_t)omp_get_thread_num();
+    struct scratch t = {.first = first};
+    for (int a = 0; a < 3; a++) {
+        t.layer[a] = at;
+        at += (size_t)g->sj * (g->n[1] + 2);
+        t.row[a] = at;
+        at += g->sj;
+    }
+    double **const rows[] = {&t.fx, &t.fy, &t.fz, &t.rest, &t.laplace};
+    for (int i = 0; i < 5; i++, at += g->sj)
+        *rows[i] = at;
+    return t;
+}
+
+struct fluxes momentum_fluxes(const struct sim *s, const struct momentum *m,
+                              const struct scratch *t, int a, int j, int k, bool porous)
+{
     const struct grid *const g = &s->grid;
-    const double *const u = f->u[a];
-    const int sa = g->s[a];
-    const double ha = g->h[a];
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                const bool inside =
-                    s->domain.periodic[a] ? n <= g->n[a] : n > 1 && n <= g->n[a];
-                double sum = 0.0;
-                if (inside) {
-                    const double hi = 2.0 * ((u[c + sa] - u[c]) / ha - m->div[c] / 3.0);
-                    const double lo = 2.0 * ((u[c] - u[c - sa]) / ha - m->div[c - sa] / 3.0);
-                    sum = (hi - lo) / ha;
-                }
-                for (int b = 0; b < 3 && (inside || face_solved(s, a, n)); b++) {
-                    if (b == a)
-                        continue;
-                    const int sb = g->s[b];
-                    const double hb = g->h[b], *const v = f->u[b];
-                    double up = (u[c + sb] - u[c]) / hb, down = (u[c] - u[c - sb]) / hb;
-                    if (inside) { /* along an open side the flow does not change across it */
-                        up += (v[c + sb] - v[c + sb - sa]) / ha;
-                        down += (v[c] - v[c - sa]) / ha;
-                    }
-                    sum += (up - down) / hb;
-                }
-                out[c] = f->mu * sum;
-            }
-    if (!s->domain.periodic[a]) /* the last face of a periodic direction is the first */
-        return;
+    const long row = (long)(k - 1) * g->n[1] + (j - 1);
+    const bool kept[2] = {row > t->first && j > inside_first(s, a, 1),
+                          row - g->n[1] >= t->first && k > inside_first(s, a, 2)};
+    struct fluxes f = {.fx = t->fx,
+                       .low = {t->row[a], t->layer[a] + (size_t)g->sj * j},
+                       .high = {t->fy, t->fz}};
+    if (!m->skip[0])
+        upper_flux(s, m, a, 0, j, k, porous, f.fx);
+    for (int b = 1; b < 3; b++) {
+        if (m->skip[b])
+            continue;
+        if (!kept[b - 1])
+            upper_flux(s, m, a, b, b == 1 ? j - 1 : j, b == 2 ? k - 1 : k, porous,
+                       f.low[b - 1]);
+        upper_flux(s, m, a, b, j, k, porous, f.high[b - 1]);
+    }
+    return f;
+}
+
+void momentum_keep(const struct grid *g, const struct fluxes *f)
+{
+    for (int b = 0; b < 2; b++)
+        memcpy(f->low[b], f->high[b], (size_t)g->sj * sizeof(double));
+}
+
+/* New velocities of row (j, k), see momentum_plain. */
+static void plain_row(const struct sim *s, const struct momentum *m, const struct fluxes *f,
+                      int a, int j, int k, const double *restrict laplace, const double ab[2],
+                      double *restrict old, double *restrict out)
+{
+    const struct grid *const g = &s->grid;
+    const int c = cell(g, 0, j, k), last = inside_last(s, 0), sa = g->s[a];
+    const double drive[3] = {s->flow.gradient.x, s->flow.gradient.y, s->flow.gradient.z};
+    const double *const restrict u = s->fluid.u[a] + c, *const restrict p = s->fluid.p + c;
+    const double *const restrict fx = f->fx, *const restrict yl = f->low[0];
+    const double *const restrict yh = f->high[0], *const restrict zl = f->low[1];
+    const double *const restrict zh = f->high[1];
+    const double step = s->fluid.dt / s->fluid.rho, inv = 1.0 / g->h[a], push = drive[a];
+    const double now = ab[0], before = ab[1], viscous = m->implicit ? 0.0 : 1.0;
+    for (int i = inside_first(s, a, 0); i <= last; i++) {
+        const double R =
+            viscous * laplace[i] - ((fx[i] - fx[i - 1]) + (yh[i] - yl[i]) + (zh[i] - zl[i]));
+        out[i] = u[i] + step * (now * R + before * old[i] + push - (p[i] - p[i - sa]) * inv);
+        old[i] = R;
+    }
+}
+
+double momentum_back(const struct sim *s, int a, int end, int c)
+{
+    const double u = s->fluid.u[a][c], inwards = end ? -u : u;
+    return inwards > 0.0 ? -s->fluid.rho * u * fabs(u) / s->grid.h[a] : 0.0;
+}
+
+static void plain_open(const struct sim *s, const struct momentum *m, int a, const double ab[2],
+                       double *old, double *out)
+{
+    const struct grid *const g = &s->grid;
     const int b = (a + 1) % 3, d = (a + 2) % 3;
-    for (int k = 1; k <= g->n[d]; k++)
-        for (int j = 1; j <= g->n[b]; j++) {
-            const int at = j * g->s[b] + k * g->s[d];
-            out[at + (g->n[a] + 1) * sa] = out[at + sa];
+    const double step = s->fluid.dt / s->fluid.rho, viscous = m->implicit ? 0.0 : 1.0;
+    for (int end = 0; end < 2; end++) {
+        if (!side_open(&s->domain, 2 * a + end))
+            continue;
+        for (int k = 1; k <= g->n[d]; k++)
+            for (int j = 1; j <= g->n[b]; j++) {
+                const int c = (end ? g->n[a] + 1 : 1) * g->s[a] + j * g->s[b] + k * g->s[d];
+                const double R =
+                    viscous * diffusion_open(s, m, FORM_A, a, end, c, s->fluid.u[a]) +
+                    momentum_back(s, a, end, c);
+                out[c] = s->fluid.u[a][c] + step * (ab[0] * R + ab[1] * old[c] -
+                                                    fluid_gradient(s, s->fluid.p, a, end, c));
+                old[c] = R;
+            }
+    }
+}
+
+void momentum_rows(const struct grid *g, long *lo, long *hi)
+{
+    const long rows = (long)g->n[1] * g->n[2];
+    const int threads = omp_get_num_threads(), me = omp_get_thread_num();
+    *lo = rows * me / threads;
+    *hi = rows * (me + 1) / threads;
+}
+
+void momentum_plain(const struct sim *s, const struct momentum *m, double now, double before,
+                    double *const old[3], double *const out[3])
+{
+    const struct grid *const g = &s->grid;
+    const double ab[2] = {now, before};
+#pragma omp parallel num_threads(m->threads) if (s->grid.total > GRID_SMALL)
+    {
+        long lo, hi;
+        momentum_rows(g, &lo, &hi);
+        const struct scratch t = momentum_scratch(m, g, lo);
+        for (long row = lo; row < hi; row++) {
+            const int j = (int)(row % g->n[1]) + 1, k = (int)(row / g->n[1]) + 1;
+            for (int a = 0; a < 3; a++) {
+                if (j < inside_first(s, a, 1) || k < inside_first(s, a, 2))
+                    continue;
+                const int c = cell(g, 0, j, k);
+                const struct fluxes f = momentum_fluxes(s, m, &t, a, j, k, false);
+                if (!m->implicit)
+                    diffusion_row(s, m, FORM_A, a, j, k, s->fluid.u[a], t.laplace);
+                plain_row(s, m, &f, a, j, k, t.laplace, ab, old[a] + c, out[a] + c);
+                momentum_keep(g, &f);
+            }
         }
+    }
+    for (int a = 0; a < 3; a++)
+        plain_open(s, m, a, ab, old[a], out[a]);
 }

@@ -60,7 +60,8 @@ void run_steps(struct sim *s, struct scene *scene)
         const double limit = feasibility_grain_limit(s);
         r->dt = scene_real(scene, "run", NULL, "safety") * limit;
         if (isinf(limit)) /* nothing touches: the fluid's step, or a thousandth of the run */
-            r->dt = s->fluid.exists ? s->fluid.dt : r->end / (1000.0 * r->substeps);
+            r->dt = s->fluid.exists ? s->fluid.dt / fmax(1.0, s->fluid.pieces)
+                                    : r->end / (1000.0 * r->substeps);
     } else {
         r->dt = scene_real(scene, "run", NULL, "dt");
     }

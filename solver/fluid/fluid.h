@@ -15,21 +15,26 @@
 struct sim;
 
 struct fluid {
-    bool exists;         /* false: the `none` answer */
-    bool on;             /* it flows (t >= flow.start) */
-    double rho, mu;      /* kg/m3, Pa s */
-    double dt;           /* s, fluid step */
-    double *u[3];        /* m/s, interstitial velocity on faces (low face of the cell) */
-    double *p;           /* Pa at centres, without the hydrostatic part */
-    double *eps;         /* fluid fraction at centres, ghosts filled */
-    double *eps_old;     /* the same at the step before */
-    double *eps_f[3];    /* fluid fraction on faces: mean of the two cells; that of the one cell
+    bool exists;       /* false: the `none` answer */
+    bool on;           /* it flows (t >= flow.start) */
+    double rho, mu;    /* kg/m3, Pa s */
+    double dt;         /* s, fluid step */
+    double *u[3];      /* m/s, interstitial velocity on faces (low face of the cell) */
+    double *p;         /* Pa at centres, without the hydrostatic part */
+    double *eps;       /* fluid fraction at centres, ghosts filled */
+    double *eps_old;   /* the same at the step before */
+    double *eps_f[3];  /* fluid fraction on faces: mean of the two cells; that of the one cell
                           inside on a face of the boundary */
-    double *drag[3];     /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
-    double *drag_s[3];   /* N/m3, S = B v_s with the grains' velocity */
-    double *stress[3];   /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the
+    double *drag[3];   /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
+    double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
+    double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the
                           rest */
-    bool whole_pressure; /* form 27c: the fluid takes all of G; on grains drag/eps alone */
+    bool bare;         /* there are no grains: eps = 1; eps*, drag*, stress are NULL */
+    double *rate;      /* 1/s on cells, d(eps)/dt by the grains' flux; or NULL */
+    int pieces;        /* grain steps per fluid step where no grain sets them (auto) */
+    bool implicit_viscosity; /* no limit of the time step by viscosity */
+    const char *equation;    /* the form of the momentum equation, for the log; or NULL */
+    bool whole_pressure;     /* form 27c: the fluid takes all of G; on grains drag/eps alone */
     struct fluid_work *work; /* the answer's own: solver, scratch, fields of steps before */
     long steps;              /* taken so far */
     int iterations;          /* of the last pressure solve */

@@ -1,64 +1,95 @@
 /* solver/fluid/navier_stokes.c - volume-averaged Navier-Stokes, incompressible fluid among
  * grains.
  *
- * Form 27a of the review, mended [AndersonJackson67], with p free of its hydrostatic part:
- *   rho d(eps u)/dt + rho div(eps u u) = eps (-grad p + div tau + f) - (B u - S)
+ * Forms 27a, b, c of the review, mended [AndersonJackson67], [Zhou10], with p free of its
+ * hydrostatic part:
+ *   a  rho d(eps u)/dt + rho div(eps u u) = eps (-grad p + div tau + f) - F_d
+ *   b                                     = eps (-grad p + f) + div(eps tau) - F_d
+ *   c                                     = -grad p + f + div(eps tau) - F_d/eps
  *   d(eps)/dt + div(eps u) = 0
- * (the review prints nabla u for div u, and returns buoyancy and pressure force to the fluid,
- * which eps grad p holds already). f is the pressure gradient that drives periodic directions.
+ * f is the pressure gradient that drives periodic directions. A grain feels, besides buoyancy,
+ *   a, b  F_d + V (-grad p + f + div tau)           c  F_d/eps
+ * The review prints nabla u for div u, and returns pressure force, viscous force and buoyancy
+ * to the fluid in all three, which eps grad p and eps div tau hold already; in c, whose
+ * pressure the fluid takes alone, the drag carries 1/eps. c is the same physics as a only where
+ * the flow is steady and uniform [Zhou10]; a and b are where the porosity is uniform.
  *
- * In time: convection and stress by Adams-Bashforth 2 (Euler at the first step), drag backward
- * Euler, pressure incremental [Chorin68], [vanKan86]:
- *   A u* = rho m_old u_old/dt + E + m (G_visc + f - grad p) + S,   A = rho m/dt + B,  m = eps_f
- *   div((m^2/A) grad dp) = div(m u*) + (eps - eps_old)/dt
- *   u = u* - (m/A) grad dp,   p += dp
+ * In time, second order: convection by Adams-Bashforth 2 (with a step that may change; Euler at
+ * the first), the viscous Laplacian by the same or by Crank and Nicolson, pressure incremental
+ * [Chorin68], [vanKan86]; drag backward Euler, first order, stable at any dt B/rho:
+ *   A u* = rho m_old u_old/dt + E + g (f - grad p) + S,   A = rho m/dt + B,  m = eps_f
+ *   div((m g/A) grad dp) = div(m u*) + d(eps)/dt,         g = m, in form c 1
+ *   u = u* - (g/A) grad dp,   p += dp
  * The drag is in A, so the pressure equation knows it: a uniform bed gives the drag law's
- * pressure drop to round-off at any dt B/rho. */
+ * pressure drop to round-off at any dt B/rho. Without grains A is constant, and one direct
+ * solve does. */
 #include "fluid.h"
 
+#include "../diffusion.h"
 #include "../feasibility.h"
 #include "../fluid_state.h"
 #include "../momentum.h"
+#include "../porosity_rate.h"
+#include "../projection.h"
 
 const struct about fluid_about = {
     .name = "navier_stokes",
     .summary =
         "volume-averaged Navier-Stokes on a staggered grid, implicit drag, FFT pressure solve",
-    .equation = "27a: rho d(eps u)/dt + rho div(eps u u) = -eps grad p + eps div tau - F_d",
-    .source = "[AndersonJackson67], [vanKan86], [ConcusGolub73]",
-    .range = "sum of u dt/h < 0.5, 4 nu dt sum 1/h^2 < 1; any drag"};
+    .equation =
+        "27a, b, c: rho d(eps u)/dt + rho div(eps u u) = -eps grad p + eps div tau - F_d",
+    .source = "[AndersonJackson67], [Zhou10], [vanKan86], [ConcusGolub73]",
+    .range = "sum of u dt/h < 0.5, explicit viscosity 4 nu dt sum 1/h^2 < 1; any drag"};
 
 const struct key fluid_keys[] = {
     {"fluid", "density", KEY_REAL, "kg m-3", "(0, inf)", NULL, "density"},
     {"fluid", "viscosity", KEY_REAL, "Pa s", "[0, inf)", NULL, "dynamic viscosity"},
     {"fluid", "dt", KEY_REAL, "s", "auto | (0, inf)", "auto",
-     "the fluid's step; auto: half of the limits at the largest velocity of [flow]"},
-    {"fluid", "form", KEY_CHOICE, "", "27a", "27a",
-     "27a: -eps grad p + eps div tau on the fluid, the rest of both on the grains"},
+     "the fluid's step; auto: adapts to fluid.courant and to viscosity, in whole grain steps"},
+    {"fluid", "courant", KEY_REAL, "1", "(0, 0.5]", "0.25",
+     "largest sum of u dt/h that dt = auto aims at"},
+    {"fluid", "form", KEY_CHOICE, "", "a | b | c", "a",
+     "a: -eps grad p + eps div tau; b: -eps grad p + div(eps tau); c: -grad p + div(eps tau)"},
     {"fluid", "convection", KEY_CHOICE, "", "van_leer | centred | upwind", "van_leer",
      "interpolation of the convected velocity"},
+    {"fluid", "viscous", KEY_CHOICE, "", "explicit | implicit", "explicit",
+     "Adams-Bashforth 2, or Crank-Nicolson (no limit of the time step)"},
+    {"fluid", "porosity_rate", KEY_CHOICE, "", "difference | flux | off", "difference",
+     "d(eps)/dt in continuity: in time, by the grains' solid flux, or left out"},
     {"fluid", "tolerance", KEY_REAL, "1", "(0, 0.1]", "1e-11",
      "residual of the pressure solve, relative to its right-hand side"},
     {0},
 };
 
-/* The explicit terms, this step and the step before, and scratch. */
+static const char *const form_equation[] = {
+    "27a: rho d(eps u)/dt + rho div(eps u u) = -eps grad p + eps div tau - F_d",
+    "27b: rho d(eps u)/dt + rho div(eps u u) = -eps grad p + div(eps tau) - F_d",
+    "27c: rho d(eps u)/dt + rho div(eps u u) = -grad p + div(eps tau) - F_d/eps"};
+
 struct fluid_work {
     struct momentum momentum;
-    struct pressure *pressure;
-    double *convection[3], *viscous[3];         /* N/m3, this step */
-    double *convection_old[3], *viscous_old[3]; /* N/m3, the step before */
-    double *coefficient[3], *rhs, *dp;
-    double tolerance;
-    double iterations; /* of the last solve, for the series */
+    struct diffusion diffusion; /* with implicit viscosity */
+    struct pressure *pressure;  /* with grains */
+    struct poisson *direct;     /* without */
+    double *one;                /* its coefficients, 1 */
+    double *old[3];             /* N/m3, explicit terms a step ago (state) */
+    double *now[3]; /* without grains the new velocities; with, R, then the coefficient w */
+    double *dp;     /* Pa */
+    double *rhs;    /* 1/s, with grains */
+    double tolerance, courant;
+    double iterations; /* of the last pressure solve, for the series */
+    double rate;       /* 1/s, Courant number over the step, at the last step (state) */
+    double dt_old;     /* s, the last step (state); 0: none yet */
+    bool adapts, by_flux;
 };
 
 static void check_sides(struct sim *s, struct scene *scene)
 {
-    bool inflow = false, open = false;
+    bool inflow = false, common = false, open = false;
     for (int side = 0; side < 6; side++) {
         const enum side_kind kind = s->domain.side[side].kind;
         inflow = inflow || kind == SIDE_INFLOW;
+        common = common || (kind == SIDE_INFLOW && !s->domain.side[side].own_inflow);
         open = open || kind == SIDE_OUTFLOW;
         if (kind == SIDE_HEAD || kind == SIDE_FLUX)
             scene_error(
@@ -70,48 +101,89 @@ static void check_sides(struct sim *s, struct scene *scene)
     if (inflow && !open)
         scene_error(scene, "domain", NULL, NULL, "an inflow side needs an outflow side");
     const double drive[3] = {s->flow.gradient.x, s->flow.gradient.y, s->flow.gradient.z};
+    const double rate[3] = {s->flow.held_rate.x, s->flow.held_rate.y, s->flow.held_rate.z};
     for (int a = 0; a < 3; a++)
-        if (drive[a] != 0.0 && !s->domain.periodic[a])
-            scene_error(scene, "flow", NULL, "pressure_gradient",
+        if ((drive[a] != 0.0 || rate[a] != 0.0) && !s->domain.periodic[a])
+            scene_error(scene, "flow", NULL, drive[a] != 0.0 ? "pressure_gradient" : "rate",
                         "drives periodic directions only, and %c is not", 'x' + a);
-    if (!inflow && s->flow.velocity > 0.0)
-        scene_error(scene, "flow", NULL, "velocity", "there is no inflow side");
+    if (!common && flow_most(&s->flow) > 0.0)
+        scene_error(scene, "flow", NULL, s->flow.course.n > 0 ? "table" : "velocity",
+                    inflow ? "every inflow side has its own" : "there is no inflow side");
+}
+
+static void check_forces(struct scene *scene, enum form form)
+{
+    static const char *const keys[] = {"pressure_gradient", "viscous"};
+    for (int i = 0; i < 2 && form == FORM_C; i++)
+        if (scene_given(scene, "coupling", NULL, keys[i]) &&
+            scene_choice(scene, "coupling", NULL, keys[i]) == 1)
+            scene_error(scene, "coupling", NULL, keys[i],
+                        "fluid.form = c has it in the drag, which carries 1/eps; leave it out");
+}
+
+static void create_fields(struct sim *s)
+{
+    struct fluid_work *const ns = s->fluid.work;
+    const struct grid *const g = &s->grid;
+    static const char *const names[3] = {"explicit_x", "explicit_y", "explicit_z"};
+    for (int a = 0; a < 3; a++) {
+        ns->old[a] = grid_field(g);
+        ns->now[a] = grid_field(g);
+        fields_add(&s->fields,
+                   (struct field){names[a], "N m-3", "explicit terms of momentum a step ago",
+                                  (enum place)(PLACE_FACE_X + a), KIND_REAL,
+                                  (void **)&ns->old[a], FIELD_STATE});
+    }
+    ns->dp = grid_field(g);
+    if (!s->fluid.bare)
+        ns->rhs = grid_field(g);
+    if (ns->by_flux)
+        s->fluid.rate = grid_field(g);
+    if (ns->momentum.implicit)
+        diffusion_create(&ns->diffusion, s);
 }
 
 void fluid_create(struct sim *s, struct scene *scene)
 {
     struct fluid_work *const ns = s->fluid.work = xalloc(1, sizeof *ns);
     ns->tolerance = scene_real(scene, "fluid", NULL, "tolerance");
-    scene_choice(scene, "fluid", NULL, "form");
+    ns->courant = scene_real(scene, "fluid", NULL, "courant");
+    ns->adapts = scene_word(scene, "fluid", NULL, "dt", "auto");
+    const enum form form = (enum form)scene_choice(scene, "fluid", NULL, "form");
     const int scheme = scene_choice(scene, "fluid", NULL, "convection");
+    const bool implicit = scene_choice(scene, "fluid", NULL, "viscous") == 1;
+    const int rate = scene_choice(scene, "fluid", NULL, "porosity_rate");
+    s->fluid.bare = s->grains.n == 0 && !scene_has(scene, "grains");
+    s->fluid.whole_pressure = form == FORM_C;
+    s->fluid.pieces = !ns->adapts ? 1 : s->grains.n > s->grains.n_frozen ? 8 : 256;
+    s->fluid.implicit_viscosity = implicit;
+    s->fluid.equation = form_equation[form];
     check_sides(s, scene);
     if (!fluid_state_create(s, scene))
         return;
-    const struct grid *const g = &s->grid;
+    check_forces(scene, form);
     enum poisson_side side[6];
-    static const char *const names[3][2] = {{"convection_old_x", "viscous_old_x"},
-                                            {"convection_old_y", "viscous_old_y"},
-                                            {"convection_old_z", "viscous_old_z"}};
     fluid_pressure_sides(&s->domain, side);
-    ns->pressure = pressure_create(g, &s->domain, side);
-    momentum_create(&ns->momentum, g, (enum convection)scheme);
-    ns->rhs = grid_field(g);
-    ns->dp = grid_field(g);
-    for (int a = 0; a < 3; a++) {
-        double **const fields[] = {&ns->convection[a], &ns->viscous[a], &ns->convection_old[a],
-                                   &ns->viscous_old[a], &ns->coefficient[a]};
-        for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
-            *fields[i] = grid_field(g);
-        const enum place place = a == 0 ? PLACE_FACE_X : a == 1 ? PLACE_FACE_Y : PLACE_FACE_Z;
-        fields_add(&s->fields,
-                   (struct field){names[a][0], "N m-3", "convection a step ago", place,
-                                  KIND_REAL, (void **)&ns->convection_old[a], FIELD_STATE});
-        fields_add(&s->fields,
-                   (struct field){names[a][1], "N m-3", "div tau a step ago", place, KIND_REAL,
-                                  (void **)&ns->viscous_old[a], FIELD_STATE});
+    ns->by_flux = !s->fluid.bare && rate > 0 && s->coupling.ways == 2;
+    ns->momentum.rate_off = rate == 2;
+    momentum_create(&ns->momentum, s, (enum convection)scheme, form, implicit);
+    create_fields(s);
+    if (s->fluid.bare) {
+        ns->direct = poisson_create(&s->grid, side);
+        ns->one = xalloc((size_t)s->grid.n[2] + 2, sizeof *ns->one);
+        for (int k = 0; k < s->grid.n[2] + 2; k++)
+            ns->one[k] = 1.0;
+    } else {
+        ns->pressure = pressure_create(&s->grid, &s->domain, side);
+        series_add(&s->series, "pressure_iterations", "1", "iterations of the pressure solve",
+                   &ns->iterations);
     }
-    series_add(&s->series, "pressure_iterations", "1", "iterations of the pressure solve",
-               &ns->iterations);
+    if (ns->adapts)
+        series_add(&s->series, "fluid_step", "s", "the fluid's time step", &s->fluid.dt);
+    if (s->flow.held)
+        series_add(&s->series, "rate_error", "m s-1",
+                   "largest difference of the flow rate to the one that is held",
+                   &s->flow.rate_off);
 }
 
 void fluid_free(struct sim *s)
@@ -120,206 +192,177 @@ void fluid_free(struct sim *s)
     if (!s->fluid.p)
         return;
     pressure_free(ns->pressure);
+    poisson_free(ns->direct);
     momentum_free(&ns->momentum);
+    diffusion_free(&ns->diffusion);
     for (int a = 0; a < 3; a++) {
-        void *const all[] = {ns->convection[a], ns->viscous[a], ns->convection_old[a],
-                             ns->viscous_old[a], ns->coefficient[a]};
-        for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-            xfree(all[i]);
+        xfree(ns->old[a]);
+        xfree(ns->now[a]);
     }
-    xfree(ns->rhs);
-    xfree(ns->dp);
-    xfree(ns);
+    void *const all[] = {ns->one, ns->dp, ns->rhs, s->fluid.rate, ns};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
     fluid_state_free(s);
+}
+
+/* The step for dt = auto, from the last step's velocities and what flows in next: shorter at
+ * once, longer by a fifth at a time and not for little. */
+static void adapt(struct sim *s)
+{
+    struct fluid_work *const ns = s->fluid.work;
+    if (!ns->adapts || ns->dt_old == 0.0)
+        return;
+    const double rate = fmax(ns->rate, fluid_entry_rate(s, s->t + ns->dt_old));
+    double most = fmin(ns->courant / rate, s->run.end / 10.0); /* rate 0: infinite */
+    if (!ns->momentum.implicit)
+        most = fmin(most, 0.8 * fluid_viscous_limit(s));
+    const int now = (int)rint(ns->dt_old / s->run.dt);
+    const double room = floor(most / s->run.dt + 1e-9);
+    int n = now;
+    if (room < now)
+        n = room > 1.0 ? (int)room : 1;
+    else if (room > 1.25 * now)
+        n = now + (now < 5 ? 1 : now / 5);
+    s->run.substeps = n;
+    s->fluid.dt = n * s->run.dt;
 }
 
 void fluid_sense(struct sim *s)
 {
-    coupling_volume(s);
-    if (s->coupling.calls == 0) /* the flow starts as it enters */
+    struct fluid_work *const ns = s->fluid.work;
+    adapt(s);
+    if (s->fluid.steps == 0 && ns->dt_old == 0.0) /* the flow starts as it enters */
         fluid_velocity_sides(s, s->t);
+    if (s->fluid.bare)
+        return;
+    coupling_volume(s);
+    if (s->fluid.steps == 0 && ns->dt_old == 0.0)
+        fluid_velocity_sides(s, s->t);
+    if (ns->by_flux && !ns->momentum.rate_off)
+        porosity_rate(s, ns->dp, s->fluid.rate);
     coupling_drag(s);
 }
 
 void fluid_load(struct sim *s)
 {
-    coupling_load(s);
-}
-
-/* Explicit terms at the old velocities, extrapolated to the half step. */
-static void explicit_terms(struct sim *s)
-{
-    struct fluid_work *const ns = s->fluid.work;
-    const bool first = s->fluid.steps == 0;
-    momentum_dilatation(s, &ns->momentum);
-    for (int a = 0; a < 3; a++) {
-        momentum_convection(s, &ns->momentum, a, ns->convection[a]);
-        momentum_viscous(s, &ns->momentum, a, ns->viscous[a]);
-        double *const now[2] = {ns->convection[a], ns->viscous[a]};
-        double *const old[2] = {ns->convection_old[a], ns->viscous_old[a]};
-        for (int q = 0; q < 2; q++)
-#pragma omp parallel for schedule(static)
-            for (size_t c = 0; c < s->grid.total; c++) {
-                const double x = now[q][c];
-                now[q][c] = first ? x : 1.5 * x - 0.5 * old[q][c];
-                old[q][c] = x;
-            }
-    }
-}
-
-/* dp/dx on face c of layer i of direction a; half a cell on an open side, where p = 0 */
-static double gradient(const struct sim *s, const double *p, int a, int i, int c)
-{
-    const struct grid *const g = &s->grid;
-    if (!s->domain.periodic[a] && i == 1)
-        return 2.0 * p[c] / g->h[a];
-    if (!s->domain.periodic[a] && i == g->n[a] + 1)
-        return -2.0 * p[c - g->s[a]] / g->h[a];
-    return (p[c] - p[c - g->s[a]]) / g->h[a];
-}
-
-static void predict(struct sim *s, int a)
-{
-    struct fluid_work *const ns = s->fluid.work;
-    struct fluid *const f = &s->fluid;
-    const struct grid *const g = &s->grid;
-    const double rate = f->rho / f->dt;
-    const double drive = a == 0   ? s->flow.gradient.x
-                         : a == 1 ? s->flow.gradient.y
-                                  : s->flow.gradient.z;
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                const double m = f->eps_f[a][c], A = rate * m + f->drag[a][c];
-                const double m_old = 0.5 * (f->eps_old[c] + f->eps_old[c - g->s[a]]);
-                ns->coefficient[a][c] = m * m / A;
-                if (!face_solved(s, a, n))
-                    continue;
-                const double push = ns->viscous[a][c] + drive - gradient(s, f->p, a, n, c);
-                f->u[a][c] = (rate * m_old * f->u[a][c] + ns->convection[a][c] + m * push +
-                              f->drag_s[a][c]) /
-                             A;
-            }
-}
-
-static void correct(struct sim *s, int a)
-{
-    struct fluid_work *const ns = s->fluid.work;
-    struct fluid *const f = &s->fluid;
-    const struct grid *const g = &s->grid;
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                if (face_solved(s, a, n))
-                    f->u[a][c] -=
-                        ns->coefficient[a][c] / f->eps_f[a][c] * gradient(s, ns->dp, a, n, c);
-            }
-}
-
-/* Scale of the right-hand side, for what round-off leaves: velocity over cell, over all cells.
- */
-static double round_off(const struct sim *s)
-{
-    const struct grid *const g = &s->grid;
-    double sum = 0.0;
-    for (int a = 0; a < 3; a++)
-        sum = fmax(sum, max_abs(s->fluid.u[a], g->total) / g->h[a]);
-    return 1e-15 * sum * sqrt((double)g->n[0] * g->n[1] * g->n[2]);
+    if (!s->fluid.bare)
+        coupling_load(s);
 }
 
 /* A closed box cannot lose or gain volume: what would be dropped in silence stops the run. */
 static void check_balance(const struct sim *s, double floor)
 {
     const struct fluid_work *const ns = s->fluid.work;
-    const double size = max_abs(ns->rhs, s->grid.total);
     const double lost = pressure_imbalance(ns->pressure, 0.0, ns->rhs);
-    if (lost > 1e-6 && size > 1e3 * floor)
+    if (lost > 1e-6 && max_abs(ns->rhs, s->grid.total) > 1e3 * floor)
         die(EXIT_UNSTABLE,
             "the fluid of the closed box has nowhere to go at t = %.9g s: its volume is asked "
-            "to change "
-            "by %.3g of the flow",
+            "to change by %.3g of the flow",
             s->t, lost);
 }
 
-static void project(struct sim *s)
+/* dp for the velocities u* at hand, without grains: rho/dt div u* in one direct solve. */
+static void solve_plain(struct sim *s)
+{
+    struct fluid_work *const ns = s->fluid.work;
+    fluid_divergences(s, s->fluid.rho / s->fluid.dt, ns->dp);
+    poisson_solve(ns->direct, ns->one, ns->one, 0.0, ns->dp, ns->dp);
+    grid_ghosts(&s->grid, &s->domain, ns->dp);
+}
+
+static void solve_porous(struct sim *s)
 {
     struct fluid_work *const ns = s->fluid.work;
     struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= g->n[2]; k++)
-        for (int j = 1; j <= g->n[1]; j++)
-            for (int c = cell(g, 1, j, k); c <= cell(g, g->n[0], j, k); c++) {
-                ns->rhs[c] = fluid_divergence(s, c);
-                ns->dp[c] = 0.0;
-            }
-    const double floor = round_off(s);
+    const double most = fluid_divergences(s, 1.0, ns->rhs);
+    const double floor = 1e-15 * most * sqrt((double)g->n[0] * g->n[1] * g->n[2]);
     check_balance(s, floor);
-    const struct solve r = pressure_solve(ns->pressure, ns->coefficient, 0.0, ns->rhs, ns->dp,
-                                          ns->tolerance, floor);
+    for (size_t c = 0; c < g->total; c++)
+        ns->dp[c] = 0.0;
+    const struct solve r =
+        pressure_solve(ns->pressure, ns->now, 0.0, ns->rhs, ns->dp, ns->tolerance, floor);
     ns->iterations = f->iterations = r.iterations;
     f->residual = r.start > 0.0 ? r.end / r.start : 0.0;
     if (!r.converged)
         die(EXIT_UNSTABLE,
             "the pressure has not converged at t = %.9g s, step %ld: residual %.3g of its "
-            "start "
-            "after %d iterations, fluid.tolerance is %g (smallest fluid fraction %.3g)",
+            "start after %d iterations, fluid.tolerance is %g (smallest fluid fraction %.3g)",
             s->t, s->step, f->residual, r.iterations, ns->tolerance, s->coupling.eps_least);
-    for (int a = 0; a < 3; a++)
-        correct(s, a);
-    for (size_t c = 0; c < g->total; c++)
-        f->p[c] += ns->dp[c];
-    fluid_velocity_sides(s, s->t + f->dt);
 }
 
-/* G = -grad p + div tau + f where there is an equation; on an inflow face what balances its
- * drag. */
-static void stress(struct sim *s, int a)
+static void swap(double **a, double **b)
+{
+    double *const c = *a;
+    *a = *b;
+    *b = c;
+}
+
+/* u* without grains. */
+static void predict_plain(struct sim *s, double now, double before)
 {
     struct fluid_work *const ns = s->fluid.work;
-    struct fluid *const f = &s->fluid;
-    const struct grid *const g = &s->grid;
-    const double drive = a == 0   ? s->flow.gradient.x
-                         : a == 1 ? s->flow.gradient.y
-                                  : s->flow.gradient.z;
-    const double viscous = s->coupling.viscous ? 1.0 : 0.0;
-    const int last[3] = {face_last(g, a, 0), face_last(g, a, 1), face_last(g, a, 2)};
-#pragma omp parallel for schedule(static)
-    for (int k = 1; k <= last[2]; k++)
-        for (int j = 1; j <= last[1]; j++)
-            for (int i = 1; i <= last[0]; i++) {
-                const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                if (face_solved(s, a, n) || s->domain.periodic[a]) {
-                    f->stress[a][c] =
-                        drive - gradient(s, f->p, a, n, c) + viscous * ns->viscous[a][c];
-                } else { /* a given velocity: 0 on a wall */
-                    const int side = 2 * a + (n > 1);
-                    const bool inflow = s->domain.side[side].kind == SIDE_INFLOW;
-                    f->stress[a][c] =
-                        inflow ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / f->eps_f[a][c]
-                               : 0.0;
-                }
-            }
+    momentum_plain(s, &ns->momentum, now, before, ns->old, ns->now);
+    if (!ns->momentum.implicit) {
+        for (int a = 0; a < 3; a++)
+            swap(&s->fluid.u[a], &ns->now[a]);
+        return;
+    }
+    fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
+    for (int a = 0; a < 3; a++)
+        diffusion_solve(s, &ns->momentum, &ns->diffusion, a, ns->now[a], s->fluid.u[a],
+                        fmin(1e-10, ns->tolerance));
+}
+
+/* u* with grains, and the coefficient of the pressure equation. */
+static void predict_porous(struct sim *s, double now, double before)
+{
+    struct fluid_work *const ns = s->fluid.work;
+    const bool implicit = ns->momentum.implicit;
+    momentum_dilatation(s, ns->dp);
+    momentum_porous(s, &ns->momentum, ns->dp, ns->now, s->fluid.stress);
+    for (int a = 0; a < 3; a++)
+        projection_predict(s, a, now, before, ns->now[a], ns->old[a],
+                           implicit ? ns->now[a] : s->fluid.u[a]);
+    if (implicit) {
+        fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
+        for (int a = 0; a < 3; a++)
+            diffusion_solve(s, &ns->momentum, &ns->diffusion, a, ns->now[a], s->fluid.u[a],
+                            fmin(1e-10, ns->tolerance));
+    }
+    for (int a = 0; a < 3; a++)
+        projection_coefficient(s, a, ns->now[a]);
 }
 
 void fluid_step(struct sim *s)
 {
+    struct fluid_work *const ns = s->fluid.work;
+    struct fluid *const f = &s->fluid;
+    double *const *const w = f->bare ? NULL : ns->now;
+    const double ratio = ns->dt_old > 0.0 ? f->dt / ns->dt_old : 0.0;
+    flow_drive(&s->flow, s->t + 0.5 * f->dt);
     fluid_velocity_sides(s, s->t);
-    explicit_terms(s);
-    for (int a = 0; a < 3; a++)
-        predict(s, a);
-    fluid_velocity_sides(s, s->t + s->fluid.dt); /* what enters at the end of the step */
-    project(s);
-    for (int a = 0; a < 3; a++)
-        stress(s, a);
+    if (f->bare)
+        predict_plain(s, 1.0 + 0.5 * ratio, -0.5 * ratio);
+    else
+        predict_porous(s, 1.0 + 0.5 * ratio, -0.5 * ratio);
+    if (s->flow.held)
+        projection_hold(s, w);
+    fluid_velocity_sides(s, s->t + f->dt); /* what enters at the end of the step */
+    if (f->bare)
+        solve_plain(s);
+    else
+        solve_porous(s);
+    projection_correct(s, w, ns->dp);
+    fluid_velocity_sides(s, s->t + f->dt);
+    if (!f->bare)
+        projection_stress(s, ns->dp);
+    if (s->flow.held)
+        s->flow.rate_off = projection_rate_off(s);
     fluid_guard(s, !s->run.force);
-    s->fluid.steps++;
+    ns->rate = f->courant / f->dt;
+    ns->dt_old = f->dt;
+    f->steps++;
 }
 
 double fluid_side_pressure(const struct sim *s, int side)
@@ -331,8 +374,11 @@ void fluid_feasibility(const struct sim *s, struct feasibility *f)
 {
     if (isfinite(fluid_courant_limit(s)))
         feasibility_add(f, "Courant", "s", s->fluid.dt, fluid_courant_limit(s), true,
-                        "h/(2 u) at the largest velocity of [flow], porosity 0.4");
+                        s->grains.n > 0 ? "h/(2 u) at the largest velocity given, porosity 0.4"
+                                        : "h/(2 u) at the largest velocity given");
     if (isfinite(fluid_viscous_limit(s)))
-        feasibility_add(f, "explicit viscosity", "s", s->fluid.dt, fluid_viscous_limit(s), true,
-                        "1/(4 nu sum 1/h^2)");
+        feasibility_add(f, "explicit viscosity", "s", s->fluid.dt, fluid_viscous_limit(s),
+                        !s->fluid.implicit_viscosity,
+                        s->fluid.implicit_viscosity ? "implicit: accuracy only"
+                                                    : "1/(4 nu sum 1/h^2)");
 }

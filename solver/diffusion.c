@@ -1,0 +1,305 @@
+/* diffusion.c - the viscous Laplacian, and Crank and Nicolson's scheme for it [CrankNicolson47]
+ * by conjugate gradients [HestenesStiefel52], scaled with the diagonal.
+ *
+ * Form a is divided by eps, which makes it symmetric: (rho/dt + B/eps - mu laplace/2); forms b
+ * and c are so: (rho eps/dt + B - div(eps mu grad)/2). The control volume of a face on an open
+ * side is half a cell; with that weight its row is symmetric too. */
+#include "diffusion.h"
+
+#include <string.h>
+#include "fluid_state.h"
+
+enum { MOST = 1000 }; /* iterations */
+
+void diffusion_create(struct diffusion *d, const struct sim *s)
+{
+    d->r = grid_field(&s->grid);
+    d->d = grid_field(&s->grid);
+    d->q = grid_field(&s->grid);
+    d->part = xalloc((size_t)(s->grid.n[1] + 1) * (s->grid.n[2] + 1), sizeof *d->part);
+}
+
+void diffusion_free(struct diffusion *d)
+{
+    void *const all[] = {d->r, d->d, d->q, d->part};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+}
+
+void diffusion_row(const struct sim *s, const struct momentum *m, enum form form, int a, int j,
+                   int k, const double *field, double *restrict out)
+{
+    const struct grid *const g = &s->grid;
+    const int c = cell(g, 0, j, k), first = inside_first(s, a, 0), last = inside_last(s, 0);
+    const double *const restrict u = field + c;
+    const int sj = m->skip[1] ? 0 : g->sj, sk = m->skip[2] ? 0 : g->sk, si = !m->skip[0];
+    if (form == FORM_A) {
+        const double cx = s->fluid.mu / (g->h[0] * g->h[0]);
+        const double cy = s->fluid.mu / (g->h[1] * g->h[1]);
+        const double cz = s->fluid.mu / (g->h[2] * g->h[2]);
+        for (int i = first; i <= last; i++)
+            out[i] = cx * (u[i - si] - 2.0 * u[i] + u[i + si]) +
+                     cy * (u[i - sj] - 2.0 * u[i] + u[i + sj]) +
+                     cz * (u[i - sk] - 2.0 * u[i] + u[i + sk]);
+        return;
+    }
+    const double *const restrict e = s->fluid.eps + c;
+    const int sa = g->s[a];
+    for (int i = first; i <= last; i++)
+        out[i] = 0.0;
+    for (int b = 0; b < 3; b++) {
+        const int sb = g->s[b];
+        if (m->skip[b])
+            continue;
+        const double full = s->fluid.mu / (g->h[b] * g->h[b]), quarter = 0.25 * full;
+        if (b == a)
+            for (int i = first; i <= last; i++)
+                out[i] += full * (e[i] * (u[i + sb] - u[i]) - e[i - sa] * (u[i] - u[i - sb]));
+        else
+            for (int i = first; i <= last; i++) {
+                const double pair = e[i] + e[i - sa];
+                const double high = pair + e[i + sb] + e[i + sb - sa];
+                const double low = pair + e[i - sb] + e[i - sb - sa];
+                out[i] += quarter * (high * (u[i + sb] - u[i]) - low * (u[i] - u[i - sb]));
+            }
+    }
+}
+
+double diffusion_open(const struct sim *s, const struct momentum *m, enum form form, int a,
+                      int end, int c, const double *u)
+{
+    const struct grid *const g = &s->grid;
+    const int sa = g->s[a];
+    const bool even = form == FORM_A;
+    const double *const e = s->fluid.eps;
+    double sum = 2.0 * (even ? 1.0 : e[end ? c - sa : c]) * (u[end ? c - sa : c + sa] - u[c]) /
+                 (g->h[a] * g->h[a]);
+    for (int b = 0; b < 3; b++) {
+        const int sb = g->s[b];
+        if (b == a || m->skip[b])
+            continue;
+        const double pair = even ? 0.0 : e[c] + e[c - sa];
+        const double high = even ? 1.0 : 0.25 * (pair + e[c + sb] + e[c + sb - sa]);
+        const double low = even ? 1.0 : 0.25 * (pair + e[c - sb] + e[c - sb - sa]);
+        sum += (high * (u[c + sb] - u[c]) - low * (u[c] - u[c - sb])) / (g->h[b] * g->h[b]);
+    }
+    return s->fluid.mu * sum;
+}
+
+/* rho eps/dt + B of a face, over eps for form a. */
+static double diagonal(const struct sim *s, const struct momentum *m, int a, int c)
+{
+    const struct fluid *const f = &s->fluid;
+    const double rate = f->rho / f->dt;
+    if (f->bare)
+        return rate;
+    const double eps = f->eps_f[a][c];
+    return m->form == FORM_A ? rate + f->drag[a][c] / eps : rate * eps + f->drag[a][c];
+}
+
+/* A run over the rows of faces of component a that are solved for, those of open sides too; a
+ * row's faces are c + i, i = first..last; the first and last may have half the weight. */
+struct run_of_faces {
+    int c, first, last;
+    bool half_row, half_first, half_last;
+};
+
+static bool faces_of_row(const struct sim *s, int a, int j, int k, struct run_of_faces *r)
+{
+    const struct grid *const g = &s->grid;
+    const bool wrap = s->domain.periodic[a];
+    const bool low = !wrap && side_open(&s->domain, 2 * a);
+    const bool high = !wrap && side_open(&s->domain, 2 * a + 1);
+    const int at[3] = {0, j, k};
+    *r = (struct run_of_faces){.c = cell(g, 0, j, k), .first = 1, .last = g->n[0]};
+    if (a == 0) {
+        r->first = wrap || low ? 1 : 2;
+        r->last = g->n[0] + high;
+        r->half_first = low;
+        r->half_last = high;
+        return true;
+    }
+    const bool edge = !wrap && (at[a] == 1 || at[a] == g->n[a] + 1);
+    r->half_row = edge;
+    return edge ? at[a] == 1 ? low : high : at[a] <= g->n[a];
+}
+
+static int rows_of(const struct sim *s, int a)
+{
+    return face_last(&s->grid, a, 1) * face_last(&s->grid, a, 2);
+}
+
+static void row_at(const struct sim *s, int a, int row, int *j, int *k)
+{
+    *j = row % face_last(&s->grid, a, 1) + 1;
+    *k = row / face_last(&s->grid, a, 1) + 1;
+}
+
+/* x . y over the faces of a row, each with its volume. */
+static double row_dot(const struct run_of_faces *r, const double *x, const double *y)
+{
+    double lane[8] = {0}, sum = 0.0;
+    int i = r->c + r->first;
+    for (; i + 7 <= r->c + r->last; i += 8)
+        for (int l = 0; l < 8; l++)
+            lane[l] += x[i + l] * y[i + l];
+    for (; i <= r->c + r->last; i++)
+        sum += x[i] * y[i];
+    for (int l = 0; l < 8; l++)
+        sum += lane[l];
+    const int lo = r->c + r->first, hi = r->c + r->last;
+    sum -= r->half_first ? 0.5 * x[lo] * y[lo] : 0.0;
+    sum -= r->half_last ? 0.5 * x[hi] * y[hi] : 0.0;
+    return r->half_row ? 0.5 * sum : sum;
+}
+
+static double add_rows(const struct diffusion *d, int rows)
+{
+    double sum = 0.0;
+    for (int row = 0; row < rows; row++)
+        sum += d->part[row];
+    return sum;
+}
+
+/* out = L u of a row; the faces of open sides by themselves */
+static void laplace_of_row(const struct sim *s, const struct momentum *m, int a, int j, int k,
+                           const struct run_of_faces *r, const double *u, double *out)
+{
+    if (r->half_row) {
+        const int end = a == 1 ? j > 1 : k > 1;
+        for (int i = r->first; i <= r->last; i++)
+            out[i] = diffusion_open(s, m, m->form, a, end, r->c + i, u);
+        return;
+    }
+    diffusion_row(s, m, m->form, a, j, k, u, out);
+    if (r->half_first)
+        out[r->first] = diffusion_open(s, m, m->form, a, 0, r->c + r->first, u);
+    if (r->half_last)
+        out[r->last] = diffusion_open(s, m, m->form, a, 1, r->c + r->last, u);
+}
+
+/* r = A (x - u) + L u, d = 0; returns r . r/A^2, the square of a change of velocity. */
+static double first_residual(const struct sim *s, const struct momentum *m, struct diffusion *d,
+                             int a, const double *x, const double *u)
+{
+    const int rows = rows_of(s, a);
+#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
+    for (int row = 0; row < rows; row++) {
+        struct run_of_faces r;
+        int j, k;
+        row_at(s, a, row, &j, &k);
+        d->part[row] = 0.0;
+        if (!faces_of_row(s, a, j, k, &r))
+            continue;
+        laplace_of_row(s, m, a, j, k, &r, u, d->r + r.c);
+        for (int c = r.c + r.first; c <= r.c + r.last; c++) {
+            const double A = diagonal(s, m, a, c);
+            d->r[c] += A * (x[c] - u[c]);
+            d->q[c] = d->r[c] / A;
+            d->d[c] = 0.0;
+        }
+        d->part[row] = row_dot(&r, d->q, d->q);
+    }
+    return add_rows(d, rows);
+}
+
+/* The diagonal of A - L/2 for cells of even size away from sides: scales the residual. */
+static double scale_of(const struct sim *s, const struct momentum *m, int a, int c)
+{
+    const struct grid *const g = &s->grid;
+    double sum = 0.0;
+    for (int b = 0; b < 3; b++)
+        sum += m->skip[b] ? 0.0 : 1.0 / (g->h[b] * g->h[b]);
+    const double eps = m->form == FORM_A || s->fluid.bare ? 1.0 : s->fluid.eps_f[a][c];
+    return 1.0 / (diagonal(s, m, a, c) + eps * s->fluid.mu * sum);
+}
+
+/* z = r scaled; returns r . z. With beta: d = z + beta d. */
+static double direction(const struct sim *s, const struct momentum *m, struct diffusion *d,
+                        int a, bool turn, double beta)
+{
+    const int rows = rows_of(s, a);
+#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
+    for (int row = 0; row < rows; row++) {
+        struct run_of_faces r;
+        int j, k;
+        row_at(s, a, row, &j, &k);
+        d->part[row] = 0.0;
+        if (!faces_of_row(s, a, j, k, &r))
+            continue;
+        for (int c = r.c + r.first; c <= r.c + r.last; c++) {
+            const double z = scale_of(s, m, a, c) * d->r[c];
+            if (turn)
+                d->d[c] = z + beta * d->d[c];
+            else
+                d->q[c] = z;
+        }
+        if (!turn)
+            d->part[row] = row_dot(&r, d->q, d->r);
+    }
+    return turn ? 0.0 : add_rows(d, rows);
+}
+
+/* q = (A - L/2) d; returns d . q */
+static double apply(const struct sim *s, const struct momentum *m, struct diffusion *d, int a)
+{
+    const int rows = rows_of(s, a);
+    fluid_ghosts_of_change(s, a, d->d);
+#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
+    for (int row = 0; row < rows; row++) {
+        struct run_of_faces r;
+        int j, k;
+        row_at(s, a, row, &j, &k);
+        d->part[row] = 0.0;
+        if (!faces_of_row(s, a, j, k, &r))
+            continue;
+        laplace_of_row(s, m, a, j, k, &r, d->d, d->q + r.c);
+        for (int c = r.c + r.first; c <= r.c + r.last; c++)
+            d->q[c] = diagonal(s, m, a, c) * d->d[c] - 0.5 * d->q[c];
+        d->part[row] = row_dot(&r, d->d, d->q);
+    }
+    return add_rows(d, rows);
+}
+
+/* u += alpha d, r -= alpha q */
+static void move(const struct sim *s, struct diffusion *d, int a, double alpha, double *u)
+{
+    const int rows = rows_of(s, a);
+#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
+    for (int row = 0; row < rows; row++) {
+        struct run_of_faces r;
+        int j, k;
+        row_at(s, a, row, &j, &k);
+        if (faces_of_row(s, a, j, k, &r))
+            for (int c = r.c + r.first; c <= r.c + r.last; c++) {
+                u[c] += alpha * d->d[c];
+                d->r[c] -= alpha * d->q[c];
+            }
+    }
+}
+
+int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,
+                    const double *x, double *u, double tolerance)
+{
+    if (first_residual(s, m, d, a, x, u) == 0.0)
+        return 0;
+    double rz = direction(s, m, d, a, false, 0.0), beta = 0.0;
+    const double target = tolerance * tolerance * rz;
+    int n = 0;
+    while (rz > target) {
+        if (++n > MOST)
+            die(EXIT_UNSTABLE,
+                "the implicit viscosity has not converged at t = %.9g s: residual %.3g of its "
+                "start after %d iterations",
+                s->t, sqrt(rz / target) * tolerance, MOST);
+        direction(s, m, d, a, true, beta);
+        const double dq = apply(s, m, d, a);
+        if (!(dq > 0.0))
+            break;
+        move(s, d, a, rz / dq, u);
+        const double rz_new = direction(s, m, d, a, false, 0.0);
+        beta = rz_new / rz;
+        rz = rz_new;
+    }
+    return n;
+}
