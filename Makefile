@@ -11,14 +11,17 @@ DRAG      ?= none
 POROSITY  ?= none
 FLUID     ?= none
 REFERENCE ?= none
+FORCES    ?= none  # as many as wanted, sorted: magnus+saffman
 MODE      ?= release
 
+# A list of forces "a+b" as the answers forces/a forces/b, and a table of them that is made below.
+forces_of = $(addprefix forces/,$(filter-out none,$(subst +, ,$(1)))) lists/forces-$(strip $(1))
 ANSWERS := shapes/$(SHAPE) contact/$(CONTACT) contact/rolling/$(ROLLING) contact/bond/$(BOND) \
            contact/cohesion/$(COHESION) drag/$(DRAG) porosity/$(POROSITY) solver/fluid/$(FLUID) \
-           reference/$(REFERENCE)
+           reference/$(REFERENCE) $(call forces_of,$(FORCES))
 SLOT_DIRS := shapes contact contact/rolling contact/bond contact/cohesion drag porosity \
              solver/fluid reference
-NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)
+NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)-$(strip $(FORCES))
 BUILD := build/$(MODE)
 
 # ---- below here nothing needs editing ----
@@ -33,13 +36,15 @@ FLAGS_debug   := -O1 -g3 -fno-omit-frame-pointer -fsanitize=address,undefined \
                  -fno-sanitize-recover=undefined
 CFLAGS := $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE))
 comma := ,
+empty :=
+space := $(empty) $(empty)
 LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undefined) -Wl,--as-needed
 LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lm
 
 LIB := $(BUILD)/libsilt.a
 LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c)))
 BIN := $(BUILD)/bin/$(NAME)/silt
-ALL_ANSWERS := $(foreach d,$(SLOT_DIRS),$(wildcard $(d)/*.c))
+ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))
 SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
 TOOLS := $(patsubst tools/%.c,$(BUILD)/%,$(wildcard tools/*.c))
 
@@ -49,6 +54,18 @@ where: # prints where the binary is
 	@echo $(BIN)
 tools: $(TOOLS)
 answers: $(SHARED)
+
+.PRECIOUS: $(BUILD)/lists/forces-%.c
+$(BUILD)/lists/forces-%.c:
+	@mkdir -p $(@D)
+	@{ echo '#include "forces/force.h"'; \
+	   for f in $(filter-out none,$(subst +, ,$*)); do echo "extern const struct force force_$$f;"; done; \
+	   echo 'const struct force *const forces[] = {'; \
+	   for f in $(filter-out none,$(subst +, ,$*)); do echo "    &force_$$f,"; done; \
+	   echo '    0};'; } > $@
+$(BUILD)/obj/lists/%.o: $(BUILD)/lists/%.c
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -I. -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)
@@ -69,28 +86,32 @@ $(BUILD)/answers/%.so: $(BUILD)/obj/%.o
 
 # Tools link the first answers of each slot, and show the library's symbols to others they load.
 FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
-         $(addsuffix /none,$(filter-out shapes,$(SLOT_DIRS))))
+         $(addsuffix /none,$(filter-out shapes,$(SLOT_DIRS))) lists/forces-none)
 $(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
 
 # A test holds the whole library and one answer per slot: the first of each folder that its line
-# "slots: contact/linear ..." names, or else none. It may load others (-Bsymbolic keeps each
-# to its own symbols).
+# "slots: contact/linear ..." names, or else none; of forces/ all that are named. It may load others
+# (-Bsymbolic keeps each to its own symbols).
 slots_of = $(shell for d in $(SLOT_DIRS); do a=$$d/none; [ $$d = shapes ] && a=$$d/sphere; \
            for s in $$(sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c); do \
            [ "$${s%/*}" = $$d ] && a=$$s; done; echo $$a; done)
+forces_named = $(sort $(patsubst forces/%,%,$(filter forces/%, \
+               $(shell sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c))))
+answers_of = $(call slots_of,$(1)) \
+             $(call forces_of,$(if $(forces_named),$(subst $(space),+,$(forces_named)),none))
 .SECONDEXPANSION:
 $(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED) \
-                   $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,verify/$$*)))
+                   $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call answers_of,verify/$$*)))
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,verify/$*)) \
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call answers_of,verify/$*)) \
 	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
 
 # A bench likewise, without what it does not refer to.
 $(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB) \
-                  $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call slots_of,bench/$$*)))
+                  $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call answers_of,bench/$$*)))
 	@mkdir -p $(@D)
-	$(CC) $(LDFLAGS) -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call slots_of,bench/$*)) \
+	$(CC) $(LDFLAGS) -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call answers_of,bench/$*)) \
 	  $(LIB) $(LIBS)
 
 $(BUILD)/provenance.h: FORCE

@@ -33,6 +33,7 @@ void coupling_read(struct sim *s, struct scene *scene)
     drag_init(scene);
     drag_grains_read(s, scene);
     porosity_init(scene);
+    forces_read(s, scene);
 }
 
 void coupling_create(struct sim *s)
@@ -57,6 +58,7 @@ void coupling_create(struct sim *s)
     c->pos_load = xalloc(n, sizeof *c->pos_load);
     c->eps = grid_field(&s->grid);
     drag_grains_create(s);
+    forces_create(s);
     c->eps_seen = c->diffuse ? grid_field(&s->grid) : c->eps;
     for (int a = 0; a < 3; a++) {
         static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
@@ -93,6 +95,7 @@ void coupling_free(struct sim *s)
     void *const all[] = {c->n_shares, c->shares,  c->part,     c->values, c->v_ref,
                          c->drag,     c->vel_old, c->pos_load, c->eps,    c->slack};
     drag_grains_free(s);
+    forces_free(s);
     spread_free(&c->spread);
     diffuse_free(c->diffuse);
     if (c->eps_seen != c->eps)
@@ -206,4 +209,5 @@ void coupling_volume(struct sim *s)
     for (int a = 0; a < 3; a++)
         grid_face_mean(g, &s->domain, f->eps, a, f->eps_f[a]);
     sense_squares(s);
+    c->forces.due = true;
 }

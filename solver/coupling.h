@@ -27,7 +27,8 @@
  *   theta = (dt/m) sum_c w_pc kappa_pc (D M/eps^2)_c   in each direction, M_c the mean of eps_f^2
  *           over the two faces of the cell (so theta = dt kappa/m where the porosity is uniform)
  *   kappa' = kappa/(1 + theta),   v' = v + (dv - dt F_d/m)
- * dv being its change of velocity over the last fluid step and F_d the drag then: v' is the velocity
+ * dv being its change of velocity over the last fluid step (with the other explicit forces of forces.h
+ * of this step in place of that one's) and F_d the drag then: v' is the velocity
  * that it will have without drag. Stable for any theta, right for grains that others hold, and F_d is
  * constant over the sub-steps. `coupling.drag = explicit` sets theta = 0. */
 #ifndef COUPLING_H
@@ -36,6 +37,7 @@
 #include "../porosity/porosity.h"
 #include "diffuse.h"
 #include "drag_grains.h"
+#include "forces.h"
 #include "spread.h"
 
 struct sim;
@@ -51,6 +53,7 @@ struct coupling {
     struct share *shares;                      /* n x reach */
     struct spread spread;                      /* of the shares, to cells */
     struct diffuse *diffuse;                   /* D; NULL: the identity */
+    struct fluid_forces forces;                /* besides drag, stress, buoyancy */
     struct drag_grains drag_of;                /* the grains as the drag law sees them */
     double *part;                              /* n x reach, w kappa, kg/s */
     double *values;    /* n x SPREAD_STRIDE, what a grain adds to its cells */

@@ -68,7 +68,8 @@ static double grain_drag(struct sim *s, int i, bool *outside)
     c->slack[i] = v3(1.0, 1.0, 1.0);
     if (c->implicit && per_mass > 0.0) {
         const vec3 dv = v3_sub(g->vel[i], c->vel_old[i]);
-        c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), -per_mass, c->drag[i]);
+        const vec3 pushed = v3_sub(forces_change(s, i), c->drag[i]);
+        c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), per_mass, pushed);
         c->slack[i] = v3(1.0 / (1.0 + rate.x), 1.0 / (1.0 + rate.y), 1.0 / (1.0 + rate.z));
     }
     return fmax(rate.x, fmax(rate.y, rate.z));
@@ -126,6 +127,7 @@ void coupling_drag(struct sim *s)
     struct coupling *const c = &s->coupling;
     double relaxation = 0.0;
     int n_outside = 0;
+    forces_sense(s);
     drag_velocities(s);
     see_velocity(s);
 #pragma omp parallel for schedule(dynamic, 64) reduction(max : relaxation) reduction(+ : n_outside)
@@ -147,6 +149,7 @@ void coupling_drag(struct sim *s)
         return; /* B and S stay zero */
     spread_drag(s);
     drag_on_faces(s);
+    forces_on_fluid(s);
 }
 
 /* The flow and the stress of cells, as the grains feel them (form 27c: no stress). */
@@ -257,16 +260,20 @@ void coupling_load(struct sim *s)
     struct grains *const g = &s->grains;
     const double buoyant = c->buoyancy ? -s->fluid.rho : 0.0;
     see_flow(s);
+    forces_see_acceleration(s);
+    forces_inertia(s);
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < g->n; i++) {
         const vec3 exchanged = grain_load(s, i);
-        const vec3 load = v3_axpy(exchanged, buoyant * g->volume[i], s->domain.gravity);
+        const vec3 other = v3_add(exchanged, forces_load(s, i));
+        const vec3 load = v3_axpy(other, buoyant * g->volume[i], s->domain.gravity);
         /* the force at hand holds the old load */
         g->force[i] = v3_add(g->force[i], v3_sub(load, g->load[i]));
         g->load[i] = load;
         c->vel_old[i] = g->vel[i];
         c->pos_load[i] = g->pos[i];
-        c->v_ref[i] = exchanged; /* not needed any more: kept for the sum below */
+        /* not needed any more: kept for the sum below */
+        c->v_ref[i] = c->forces.any ? v3_add(exchanged, c->forces.given[i]) : exchanged;
     }
     c->to_grains = sum_over_grains(c->v_ref, g->n);
     c->from_fluid = c->ways == 2 ? lost_by_fluid(s) : c->to_grains;

@@ -15,16 +15,18 @@ static void sum_grains(struct sim *s)
 {
     const struct grains *const g = &s->grains;
     struct ledger *const l = &s->ledger;
-    l->mass = l->kinetic = l->potential = 0.0;
+    l->mass = l->inertia = l->kinetic = l->potential = 0.0;
     l->momentum = v3(0.0, 0.0, 0.0);
     for (int i = 0; i < g->n; i++) {
         if (g->inv_mass[i] == 0.0)
             continue;
+        const double inertia = 1.0 / g->inv_mass[i]; /* added mass included */
         l->mass += g->mass[i];
-        l->momentum = v3_axpy(l->momentum, g->mass[i], g->vel[i]);
-        l->kinetic += 0.5 * g->mass[i] * v3_dot(g->vel[i], g->vel[i]) +
+        l->inertia += inertia;
+        l->momentum = v3_axpy(l->momentum, inertia, g->vel[i]);
+        l->kinetic += 0.5 * inertia * v3_dot(g->vel[i], g->vel[i]) +
                       0.5 * v3_dot(g->spin[i], g->spin[i]) / g->inv_inertia[i];
-        l->potential -= g->mass[i] * v3_dot(s->domain.gravity, g->pos[i]);
+        l->potential -= inertia * v3_dot(s->domain.gravity, g->pos[i]);
     }
     l->elastic = s->elastic;
 }
@@ -43,6 +45,15 @@ static double wall_work(const struct sim *s)
     for (int k = 0; k < s->walls.n; k++)
         work -= v3_dot(s->walls.wall[k].impulse, s->walls.wall[k].velocity);
     return work;
+}
+
+void ledger_gain(struct sim *s, int i, double mass)
+{
+    const struct grains *const g = &s->grains;
+    struct ledger *const l = &s->ledger;
+    const vec3 v = g->vel[i];
+    l->momentum_start = v3_axpy(l->momentum_start, mass, v);
+    l->energy_start += mass * (0.5 * v3_dot(v, v) - v3_dot(s->domain.gravity, g->pos[i]));
 }
 
 void ledger_start(struct sim *s)
@@ -69,7 +80,7 @@ static void close_momentum(struct sim *s, double time)
     for (int i = 0; i < g->n; i++)
         if (g->inv_mass[i] != 0.0)
             load = v3_add(load, g->load[i]);
-    l->impulse_weight = v3_axpy(l->impulse_weight, l->mass * time, s->domain.gravity);
+    l->impulse_weight = v3_axpy(l->impulse_weight, l->inertia * time, s->domain.gravity);
     l->impulse_fluid = v3_axpy(l->impulse_fluid, time, load);
     l->impulse_walls = v3_scale(-1.0, wall_impulses(s));
     const vec3 sum = v3_add(l->impulse_weight, v3_add(l->impulse_fluid, l->impulse_walls));

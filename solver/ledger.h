@@ -13,6 +13,7 @@
 struct sim;
 
 struct ledger {
+    double inertia;                                    /* kg, mass and added mass of these */
     double mass;                                       /* kg of grains that move */
     vec3 momentum, momentum_start;                     /* kg m/s */
     vec3 impulse_weight, impulse_walls, impulse_fluid; /* N s since the start */
@@ -26,6 +27,9 @@ struct ledger {
 
 void ledger_start(struct sim *s);
 void ledger_close(struct sim *s);
+/* From now on grain i has more inertia than its mass: fluid that moves with it. */
+void ledger_gain(struct sim *s, int i, double mass);
+
 void ledger_report(
     struct sim *s); /* to the summary; a ledger that does not close says so loudly */
 

@@ -3,6 +3,7 @@
 
 #include <omp.h>
 #include <string.h>
+#include "../forces/force.h"
 #include "modules.h"
 #include "provenance_info.h"
 #include "sim.h"
@@ -15,6 +16,9 @@ static void log_answers(FILE *out)
             fprintf(out, "  %-9s %-16s %s\n", slots[i].name, a->name,
                     a->equation[0] ? a->equation : a->summary);
     }
+    for (int f = 0; forces[f]; f++)
+        fprintf(out, "  force     %-16s %s\n", forces[f]->about.name,
+                forces[f]->about.equation);
 }
 
 static void log_grains(FILE *out, const struct sim *s)

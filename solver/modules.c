@@ -7,10 +7,12 @@
 #include "../contact/contact.h"
 #include "../contact/rolling/rolling.h"
 #include "../drag/drag.h"
+#include "../forces/force.h"
 #include "../porosity/porosity.h"
 #include "../reference/reference.h"
 #include "../shapes/shape.h"
 #include "fluid/fluid.h"
+#include "force_names.h"
 
 const struct slot slots[SLOTS] = {
     {"shape", &shape_about, shape_keys},
@@ -34,9 +36,40 @@ static const struct key modules_keys[] = {
     {"modules", "drag", KEY_TEXT, "", "", "none", "what resists the flow?"},
     {"modules", "porosity", KEY_TEXT, "", "", "none", "what does the grid see of a grain?"},
     {"modules", "fluid", KEY_TEXT, "", "", "none", "what flows?"},
+    {"modules", "forces", KEY_TEXT, "", "", "none",
+     "what else does the fluid do to grains? as many of forces/ as wanted"},
     {"modules", "reference", KEY_TEXT, "", "", "none", "what should come out?"},
     {0},
 };
+
+char *forces_built(void)
+{
+    char *text = xstrdup("");
+    for (int f = 0; forces[f]; f++) {
+        char *const longer = xprintf("%s %s", text, forces[f]->about.name);
+        xfree(text);
+        text = longer;
+    }
+    char *const out = force_names(text);
+    xfree(text);
+    return out;
+}
+
+static void declare_forces(struct scene *s)
+{
+    char *const asked = force_names(scene_text(s, "modules", NULL, "forces"));
+    char *const built = forces_built();
+    if (strcmp(asked, built) != 0)
+        scene_error(s, "modules", NULL, "forces",
+                    "this binary was built with %s; ./run.sh builds what the scene asks for",
+                    built);
+    if (strcmp(built, "none") != 0 && strcmp(fluid_about.name, "none") == 0)
+        scene_error(s, "modules", NULL, "forces", "there is no fluid to exert them");
+    for (int f = 0; forces[f]; f++)
+        scene_declare(s, forces[f]->keys);
+    xfree(asked);
+    xfree(built);
+}
 
 void modules_declare(struct scene *s)
 {
@@ -50,4 +83,5 @@ void modules_declare(struct scene *s)
                 slots[i].about->name);
         scene_declare(s, slots[i].keys);
     }
+    declare_forces(s);
 }

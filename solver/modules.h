@@ -18,4 +18,7 @@ extern const struct slot slots[SLOTS];
  * these goes on the list of errors. */
 void modules_declare(struct scene *s);
 
+/* The forces that this binary holds, as force_names.h writes them; free with xfree. */
+char *forces_built(void);
+
 #endif

@@ -47,5 +47,8 @@ int provenance(struct provenance line[PROVENANCE_LINES])
             host.release, host.machine);
     for (int i = 0; i < SLOTS; i++)
         put(line, &n, module_key[i], "%s", slots[i].about->name);
+    char *const built = forces_built();
+    put(line, &n, "module_forces", "%s", built);
+    xfree(built);
     return n;
 }

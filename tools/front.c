@@ -9,9 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "../solver/coupling.h"
+#include "../forces/force.h"
 #include "../solver/domain.h"
 #include "../solver/flow.h"
+#include "../solver/force_names.h"
 #include "../solver/grains.h"
 #include "../solver/run.h"
 #include "../solver/walls.h"
@@ -73,10 +76,25 @@ static char *answers_allowed(const char *path)
     return text;
 }
 
+/* The forces that the scene asks for, each checked; in make's notation. Free with xfree. */
+static char *read_forces(struct scene *scene, const char *allowed)
+{
+    char *const names = force_names(scene_text(scene, "modules", NULL, "forces"));
+    char *const copy = xstrdup(names), *rest = NULL;
+    for (char *word = strtok_r(copy, "+", &rest); word; word = strtok_r(NULL, "+", &rest)) {
+        char *const file = xprintf("forces/%s.c", word);
+        if (strcmp(word, "none") != 0 && access(file, R_OK) != 0)
+            scene_error(scene, "modules", NULL, "forces", "%s is none of: %s", word, allowed);
+        xfree(file);
+    }
+    xfree(copy);
+    return names;
+}
+
 /* Reads [modules] only; the other sections are for the binary to judge. */
 static int print_slots(int argc, char **argv)
 {
-    static struct key keys[FOLDERS + 1];
+    static struct key keys[FOLDERS + 2];
     char *allowed[FOLDERS];
     int choice[FOLDERS];
     struct scene *const scene = scene_load(argv[0], argc - 1, argv + 1);
@@ -85,7 +103,10 @@ static int print_slots(int argc, char **argv)
         keys[i] = (struct key){"modules",  folders[i].slot,     KEY_CHOICE,     "",
                                allowed[i], folders[i].standard, folders[i].path};
     }
+    keys[FOLDERS] = (struct key){"modules", "forces", KEY_TEXT, "", "", "none", "forces"};
+    char *const all_forces = answers_allowed("forces");
     scene_declare(scene, keys);
+    char *const asked = read_forces(scene, all_forces);
     for (int i = 0; i < FOLDERS; i++)
         choice[i] = scene_choice(scene, "modules", NULL, folders[i].slot);
     scene_finish_section(scene, "modules");
@@ -96,42 +117,64 @@ static int print_slots(int argc, char **argv)
         free_answers(list, n);
         xfree(allowed[i]);
     }
-    putchar('\n');
+    printf("FORCES=%s\n", asked);
+    xfree(asked);
+    xfree(all_forces);
     scene_free(scene);
     return EXIT_GOOD;
 }
 
-/* Calls `visit` with what each answer of each slot says of itself. */
+/* An answer's own file, loaded. */
+static void *load_answer(const char *where, const char *path, const char *name)
+{
+    char *const file = xprintf("%s/answers/%s/%s.so", where, path, name);
+    void *const answer = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+    if (!answer)
+        die(EXIT_SCENE, "%s: %s", file, dlerror());
+    xfree(file);
+    return answer;
+}
+
+static void *find_symbol(void *answer, const char *end, const char *begin)
+{
+    char *const symbol = xprintf("%s%s", begin, end);
+    void *const found = dlsym(answer, symbol);
+    if (!found)
+        die(EXIT_SCENE, "%s", dlerror());
+    xfree(symbol);
+    return found;
+}
+
+/* Calls `visit` with what each answer of each slot says of itself, and each force. */
 static void visit_answers(const char *program,
-                          void (*visit)(const struct folder *, const struct about *,
+                          void (*visit)(const char *slot, const struct about *,
                                         const struct key *))
 {
     char *const copy = xstrdup(program);
     const char *const where = dirname(copy);
+    struct dirent **list;
     for (int f = 0; f < FOLDERS; f++) {
-        struct dirent **list;
         const int n = list_answers(folders[f].path, &list);
         for (int i = 0; i < n; i++) {
-            char *const file =
-                xprintf("%s/answers/%s/%s.so", where, folders[f].path, list[i]->d_name);
-            char *const about = xprintf("%s_about", folders[f].slot);
-            char *const keys = xprintf("%s_keys", folders[f].slot);
-            void *const answer = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
-            if (!answer || !dlsym(answer, about) || !dlsym(answer, keys))
-                die(EXIT_SCENE, "%s: %s", file, dlerror());
-            visit(&folders[f], dlsym(answer, about), dlsym(answer, keys));
-            xfree(file);
-            xfree(about);
-            xfree(keys);
+            void *const answer = load_answer(where, folders[f].path, list[i]->d_name);
+            visit(folders[f].slot, find_symbol(answer, "_about", folders[f].slot),
+                  find_symbol(answer, "_keys", folders[f].slot));
         }
         free_answers(list, n);
     }
+    const int n = list_answers("forces", &list);
+    for (int i = 0; i < n; i++) {
+        const struct force *const force = find_symbol(
+            load_answer(where, "forces", list[i]->d_name), list[i]->d_name, "force_");
+        visit("forces", &force->about, force->keys);
+    }
+    free_answers(list, n);
     xfree(copy);
 }
 
-static void print_module(const struct folder *f, const struct about *a, const struct key *keys)
+static void print_module(const char *slot, const struct about *a, const struct key *keys)
 {
-    printf("%s = %s\n    %s\n", f->slot, a->name, a->summary);
+    printf("%s = %s\n    %s\n", slot, a->name, a->summary);
     if (a->equation[0])
         printf("    equation  %s\n", a->equation);
     if (a->source[0])
@@ -143,10 +186,9 @@ static void print_module(const struct folder *f, const struct about *a, const st
     printf("%s\n", keys->section ? "\n" : "");
 }
 
-static void print_answer_keys(const struct folder *f, const struct about *a,
-                              const struct key *keys)
+static void print_answer_keys(const char *slot, const struct about *a, const struct key *keys)
 {
-    char *const title = xprintf("\n%s = %s", f->slot, a->name);
+    char *const title = xprintf("\n%s = %s", slot, a->name);
     keys_print(stdout, title, keys);
     xfree(title);
 }

@@ -20,11 +20,14 @@ static inline struct sim *sim_from(const char *text)
         abort();
     fputs(text, file);
     fclose(file);
-    char *answers[SLOTS]; /* the scene asks for what the test links */
+    char *answers[SLOTS + 1]; /* the scene asks for what the test links */
     for (int i = 0; i < SLOTS; i++)
         answers[i] = xprintf("modules.%s=%s", slots[i].name, slots[i].about->name);
-    struct scene *const scene = scene_load(path, SLOTS, answers);
-    for (int i = 0; i < SLOTS; i++)
+    char *const built = forces_built();
+    answers[SLOTS] = xprintf("modules.forces=%s", built);
+    xfree(built);
+    struct scene *const scene = scene_load(path, SLOTS + 1, answers);
+    for (int i = 0; i <= SLOTS; i++)
         xfree(answers[i]);
     struct sim *const s = sim_alloc();
     struct feasibility f = {0};

@@ -51,6 +51,12 @@ for folder in shapes contact contact/rolling contact/bond contact/cohesion drag 
     done
 done
 
+for source in forces/*.c; do
+    name=$(basename "$source" .c)
+    [ "$(contract "build/release/answers/forces/$name.so")" = "force_$name" ]
+    check $? "forces/$name exports force_$name alone"
+done
+
 name=zz_throwaway_$$
 remove() {
     rm -rf "drag/$name.c" build/release/obj/drag/"$name".* build/release/answers/drag/"$name".so \
