@@ -15,40 +15,62 @@ double fluid_divergence(const struct sim *s, int c)
     return sum;
 }
 
-/* out[i] = d(eps)/dt + div(eps u) of a row; returns the largest flow through a face over h. */
-static double divergence_row(const struct sim *s, int j, int k, double *restrict out)
+/* Largest |x|, NAN if one is not finite; eight at a time, which the compiler makes vectors of. */
+static double largest(const double *restrict x, int n)
+{
+    double most[8] = {0}, sum[8] = {0}, all = 0.0, total = 0.0;
+    int i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int l = 0; l < 8; l++) {
+            const double size = fabs(x[i + l]);
+            most[l] = size > most[l] ? size : most[l];
+            sum[l] += size;
+        }
+    for (; i < n; i++) {
+        const double size = fabs(x[i]);
+        most[0] = size > most[0] ? size : most[0];
+        sum[0] += size;
+    }
+    for (int l = 0; l < 8; l++) {
+        all = most[l] > all ? most[l] : all;
+        total += sum[l];
+    }
+    return total <= 1e300 ? all : (double)NAN;
+}
+
+/* out[i] = d(eps)/dt + div(eps u) of a row. */
+static void divergence_row(const struct sim *s, int j, int k, double *restrict out)
 {
     const struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
-    const int n = g->n[0], c = cell(g, 0, j, k);
+    const int n = g->n[0], c = cell(g, 0, j, k), sj = g->sj, sk = g->sk;
+    const double *const restrict u = f->u[0] + c, *const restrict v = f->u[1] + c;
+    const double *const restrict w = f->u[2] + c;
+    const double x = 1.0 / g->h[0], y = 1.0 / g->h[1], z = 1.0 / g->h[2];
+    if (f->bare) {
+        for (int i = 1; i <= n; i++)
+            out[i] = (u[i + 1] - u[i]) * x + (v[i + sj] - v[i]) * y + (w[i + sk] - w[i]) * z;
+        return;
+    }
+    const double *const restrict mx = f->eps_f[0] + c, *const restrict my = f->eps_f[1] + c;
+    const double *const restrict mz = f->eps_f[2] + c;
+    const double *const restrict eps = (f->rate ? f->rate : f->eps) + c;
+    const double *const restrict old = f->eps_old + c;
+    const double now = f->rate ? 1.0 : 1.0 / f->dt, before = f->rate ? 0.0 : 1.0;
+    for (int i = 1; i <= n; i++)
+        out[i] = (eps[i] - before * old[i]) * now + (mx[i + 1] * u[i + 1] - mx[i] * u[i]) * x +
+                 (my[i + sj] * v[i + sj] - my[i] * v[i]) * y +
+                 (mz[i + sk] * w[i + sk] - mz[i] * w[i]) * z;
+}
+
+/* Largest velocity of a row over h, 1/s; NAN if one is not finite. */
+static double fastest_of_row(const struct sim *s, int j, int k)
+{
+    const int c = cell(&s->grid, 1, j, k), n = s->grid.n[0];
     double most = 0.0;
-    if (f->bare)
-        for (int i = 1; i <= n; i++)
-            out[i] = 0.0;
-    else if (f->rate)
-        for (int i = 1; i <= n; i++)
-            out[i] = f->rate[c + i];
-    else
-        for (int i = 1; i <= n; i++)
-            out[i] = (f->eps[c + i] - f->eps_old[c + i]) / f->dt;
     for (int a = 0; a < 3; a++) {
-        const double *const restrict u = f->u[a] + c, inv = 1.0 / g->h[a];
-        const double *const restrict m = f->bare ? u : f->eps_f[a] + c;
-        const int sa = g->s[a];
-        double fast = 0.0;
-        if (f->bare)
-#pragma omp simd reduction(max : fast)
-            for (int i = 1; i <= n; i++) {
-                out[i] += (u[i + sa] - u[i]) * inv;
-                fast = fmax(fast, fabs(u[i]));
-            }
-        else
-#pragma omp simd reduction(max : fast)
-            for (int i = 1; i <= n; i++) {
-                out[i] += (m[i + sa] * u[i + sa] - m[i] * u[i]) * inv;
-                fast = fmax(fast, fabs(m[i] * u[i]));
-            }
-        most = fmax(most, fast * inv);
+        const double here = largest(s->fluid.u[a] + c, n) / s->grid.h[a];
+        most = here <= most ? most : here;
     }
     return most;
 }
@@ -62,7 +84,9 @@ double fluid_divergences(const struct sim *s, double scale, double *out)
     for (int row = 0; row < rows; row++) {
         const int j = row % g->n[1] + 1, k = row / g->n[1] + 1;
         double *const restrict at = out + cell(g, 0, j, k);
-        most = fmax(most, divergence_row(s, j, k, at));
+        divergence_row(s, j, k, at);
+        if (!s->fluid.bare)
+            most = fmax(most, fastest_of_row(s, j, k));
         for (int i = 1; i <= g->n[0]; i++)
             at[i] *= scale;
     }
@@ -93,22 +117,16 @@ static _Noreturn void die_velocity(const struct sim *s, int i, int j, int k, dou
 }
 
 /* Largest Courant number of a row; NAN if one is not finite. */
-static double courant_row(const struct sim *s, int j, int k)
+static double courant_row(const struct sim *s, int j, int k, double *restrict scratch)
 {
     const struct grid *const g = &s->grid;
     const int c = cell(g, 0, j, k), n = g->n[0];
     const double *const restrict u = s->fluid.u[0] + c, *const restrict v = s->fluid.u[1] + c;
     const double *const restrict w = s->fluid.u[2] + c, dt = s->fluid.dt;
     const double x = dt / g->h[0], y = dt / g->h[1], z = dt / g->h[2];
-    double most = 0.0;
-    int bad = 0;
-#pragma omp simd reduction(max : most) reduction(| : bad)
-    for (int i = 1; i <= n; i++) {
-        const double courant = fabs(u[i]) * x + fabs(v[i]) * y + fabs(w[i]) * z;
-        most = fmax(most, courant);
-        bad |= !(courant <= 1e300);
-    }
-    return bad ? (double)NAN : most;
+    for (int i = 1; i <= n; i++)
+        scratch[i] = fabs(u[i]) * x + fabs(v[i]) * y + fabs(w[i]) * z;
+    return largest(scratch + 1, n);
 }
 
 static double courant_of(const struct sim *s, int i, int j, int k)
@@ -145,13 +163,10 @@ void fluid_guard(struct sim *s, bool limited)
 #pragma omp for schedule(static)
         for (int row = 0; row < rows; row++) {
             const int j = row % g->n[1] + 1, k = row / g->n[1] + 1;
-            const double here = courant_row(s, j, k);
-            double error = 0.0;
-            fastest = fmax(fastest, divergence_row(s, j, k, row_of));
-#pragma omp simd reduction(max : error)
-            for (int i = 1; i <= g->n[0]; i++)
-                error = fmax(error, fabs(row_of[i]));
-            worst = fmax(worst, error);
+            const double here = courant_row(s, j, k, row_of);
+            fastest = fmax(fastest, here / f->dt);
+            divergence_row(s, j, k, row_of);
+            worst = fmax(worst, largest(row_of + 1, g->n[0]));
             courant = fmax(courant, here);
             broken = !(here <= limit) ? 1 : broken;
         }

@@ -59,7 +59,7 @@ double fluid_boundary_pressure(const struct sim *s, int side);
  * fluid.rate where there is one. */
 double fluid_divergence(const struct sim *s, int c);
 
-/* out = scale times that, on all cells; returns the largest eps u/h, 1/s. */
+/* out = scale times that, on all cells; returns, among grains, the largest u/h, 1/s. */
 double fluid_divergences(const struct sim *s, double scale, double *out);
 
 /* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is

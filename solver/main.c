@@ -129,13 +129,13 @@ static void summarise(struct sim *s, double begin)
 /* Steps to the end, or to a signal; returns the exit code. */
 static int advance(struct sim *s)
 {
-    const long steps = (long)ceil(s->run.end / (s->run.dt * s->run.substeps) - 1e-9);
+    const double end = s->run.end - 1e-9 * s->run.dt * s->run.substeps;
     const double work = (double)s->run.substeps * s->grains.n +
                         (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
     double next_output = s->run.output_every, next_sample = s->run.series_every;
     struct progress progress;
     progress_start(&progress, 0.0, s->run.end, "running");
-    while (s->step < steps && !caught) {
+    while (s->t < end && !s->run.done && !caught) {
         step(s);
         reference_watch(s);
         const double clock = wall_clock(), slack = 1e-9 * s->run.end;
@@ -144,7 +144,7 @@ static int advance(struct sim *s)
             while (next_sample <= s->t + slack)
                 next_sample += s->run.series_every;
         }
-        if (s->t >= next_output - slack && s->step < steps) {
+        if (s->t >= next_output - slack && s->t < end) {
             output_fields(s);
             while (next_output <= s->t + slack)
                 next_output += s->run.output_every;

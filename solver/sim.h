@@ -31,12 +31,14 @@ struct run {
     char *directory;                   /* of the outputs */
     double output_every;               /* s, fields and grains; INFINITY: first and last only */
     double series_every;               /* s */
+    bool done;                         /* what the run was for has been found: it ends */
     const volatile sig_atomic_t *stop; /* not zero: a signal asks the run to end; or NULL */
 };
 
 struct sim {
-    double t;  /* s; settling is before 0 */
-    long step; /* calls of step() */
+    double t;   /* s; settling is before 0 */
+    long step;  /* calls of step() */
+    long clock; /* steps of length run.dt since t = 0 */
     struct run run;
     struct domain domain;
     struct grains grains;

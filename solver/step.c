@@ -80,7 +80,8 @@ void step(struct sim *s)
     if (s->grains.n > s->grains.n_frozen)
         step_grains(s, s->run.substeps);
     s->step++;
-    s->t = s->run.dt * s->run.substeps * (double)s->step;
+    s->clock += s->run.substeps;
+    s->t = s->run.dt * (double)s->clock;
     clock = wall_clock();
     ledger_close(s); /* mass, momentum, volume, energy */
     timer_add(t, TIME_LEDGER, clock);

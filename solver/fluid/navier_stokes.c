@@ -218,11 +218,13 @@ static void adapt(struct sim *s)
         most = fmin(most, 0.8 * fluid_viscous_limit(s));
     const int now = (int)rint(ns->dt_old / s->run.dt);
     const double room = floor(most / s->run.dt + 1e-9);
+    const double left = fmax(1.0, ceil((s->run.end - s->t) / s->run.dt - 1e-9));
     int n = now;
     if (room < now)
         n = room > 1.0 ? (int)room : 1;
     else if (room > 1.25 * now)
         n = now + (now < 5 ? 1 : now / 5);
+    n = n > left ? (int)left : n;
     s->run.substeps = n;
     s->fluid.dt = n * s->run.dt;
 }
