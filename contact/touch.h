@@ -14,7 +14,7 @@
 #include "../solver/real.h"
 
 enum {
-    TOUCH = 64,       /* contacts per block, at most */
+    TOUCH = 32,       /* contacts per block, at most */
     TOUCH_LANES = 16, /* n is a multiple of this: the last contact repeated */
     HISTORY_MAX = 24  /* reals of memory per contact, all laws together */
 };

@@ -11,20 +11,19 @@
 
 struct wall;
 
-/* Candidate pairs, up to TOUCH; for a wall contact j is not used. */
+/* Candidate pairs, up to TOUCH; for a wall contact j is i. */
 struct candidates {
-    int n;
+    int n; /* a multiple of TOUCH_LANES */
     int i[TOUCH], j[TOUCH];
-    int slot[TOUCH];                        /* of the pair list; history and record follow it */
-    const struct wall *wall[TOUCH];         /* NULL: grain against grain */
-    double dx[TOUCH], dy[TOUCH], dz[TOUCH]; /* x_i - x_j by the nearest image; wall: from the
-                                               wall's nearest point to x_i */
+    const struct wall *wall[TOUCH];       /* NULL: grain against grain */
+    real dx[TOUCH], dy[TOUCH], dz[TOUCH]; /* m, x_i - x_j by the nearest image; wall: from the
+                                             wall's nearest point to x_i */
 };
 
 /* Lever arms from the centres to the contact point. */
 struct levers {
-    double ix[TOUCH], iy[TOUCH], iz[TOUCH]; /* m, point - x_i */
-    double jx[TOUCH], jy[TOUCH], jz[TOUCH]; /* m, point - x_j (0 for a wall) */
+    real ix[TOUCH], iy[TOUCH], iz[TOUCH]; /* m, point - x_i */
+    real jx[TOUCH], jy[TOUCH], jz[TOUCH]; /* m, point - x_j (0 for a wall) */
 };
 
 extern const struct about shape_about;
@@ -34,7 +33,8 @@ extern const struct key shape_keys[]; /* of section "grains" */
  * density. */
 void shape_body(struct grains *g, int i, double diameter, double density);
 
-/* Sets depth, normal, r_eff, r_i, r_j and the levers of each candidate, in the same order. A
+/* Sets depth, normal and levers of each candidate. r_i, r_j and r_eff are there already, from the
+ * bounding radii (r_j = 0 for a wall); a shape whose surface curves otherwise sets them anew. A
  * pair that does not overlap gets a negative depth (its gap). */
 void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
                     struct levers *l);

@@ -24,25 +24,19 @@ void shape_body(struct grains *g, int i, double diameter, double density)
 void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
                     struct levers *l)
 {
-    const double *const restrict radius = g->radius;
-    for (int k = 0; k < c->n; k++) { /* a wall has no radius; its j is i */
-        const double ri = radius[c->i[k]], rj = radius[c->j[k]];
-        t->r_i[k] = ri;
-        t->r_j[k] = c->wall[k] ? 0.0 : rj;
-        t->r_eff[k] = c->wall[k] ? ri : ri * rj / (ri + rj);
-    }
+    (void)g;
 #pragma omp simd
     for (int k = 0; k < c->n; k++) {
-        const double distance =
+        const real distance =
             sqrt(c->dx[k] * c->dx[k] + c->dy[k] * c->dy[k] + c->dz[k] * c->dz[k]);
-        const double inverse = distance > 0.0 ? 1.0 / distance : 0.0;
-        const double depth = t->r_i[k] + t->r_j[k] - distance;
-        t->depth[k] = depth;
+        const real inverse = distance > 0.0 ? 1.0 / distance : 0.0;
+        const real half = 0.5 * (t->r_i[k] + t->r_j[k] - distance);
+        const real arm_i = half - t->r_i[k];
+        const real arm_j = t->r_j[k] > 0.0 ? t->r_j[k] - half : 0.0;
+        t->depth[k] = 2.0 * half;
         t->nx[k] = c->dx[k] * inverse;
         t->ny[k] = c->dy[k] * inverse;
         t->nz[k] = c->dz[k] * inverse;
-        const double arm_i = -(t->r_i[k] - 0.5 * depth);
-        const double arm_j = t->r_j[k] > 0.0 ? t->r_j[k] - 0.5 * depth : 0.0;
         l->ix[k] = arm_i * t->nx[k];
         l->iy[k] = arm_i * t->ny[k];
         l->iz[k] = arm_i * t->nz[k];

@@ -2,25 +2,53 @@
 #ifndef CONTACT_LOOP_H
 #define CONTACT_LOOP_H
 
+#include <stdbool.h>
+#include "contact_block.h"
+
 struct sim;
 struct scene;
+
+struct contact_work {
+    struct record *record; /* per place of `to` in the pair list */
+    size_t capacity;       /* of it */
+    struct sums *own;      /* per grain, of the contacts that it owns */
+    struct report *report; /* per run */
+    double4 *wall_force;   /* per run and wall: N, on the wall, at the step at hand */
+    double4 *wall_sum;     /* the same, over the steps since it was last collected */
+    int runs;              /* room of the three */
+    int too_deep;          /* some contact of the last step is deeper than run.overlap_max */
+};
 
 /* Initialises the laws (parameters from the scene) and the scratch of the loop. */
 void contact_create(struct sim *s, struct scene *scene);
 void contact_free(struct sim *s);
 
-int contact_rows(void);     /* doubles of history per contact, all laws together */
+int contact_rows(void);     /* reals of memory per contact, all laws together */
 double contact_reach(void); /* m, gap up to which some law acts */
 
-/* Room for the records of the list at hand: after every rebuild of the list. */
+/* Room for the lists at hand: after every rebuild of them. */
 void contact_prepare(struct sim *s);
 
-/* Forces of every contact at the grains' positions, one record each; then contact_gather sums
- * them, with the load of the fluid, into grains.force and torque. Both are called by every thread
- * of a team (or by one alone); the first ends with all threads together, the second gives each
- * thread the same grains as motion_kick does and does not wait. */
-void contact_loop(struct sim *s);
-void contact_gather(struct sim *s);
+/* Forces of every contact at the bodies' places: sums per owner and a record per slot, which
+ * the motion gathers. `choose`: active slots are chosen anew. `asked`: the last step before the
+ * ledger, which wants energies, counts and the largest overlap. Called by every thread of a
+ * team (or by one alone); ends with all threads together. */
+void contact_loop(struct sim *s, bool choose, bool asked);
+
+/* Force and torque on grain i by its contacts, in the order of the lists. */
+static inline struct sums contact_sums(const struct contact_work *w, const int *begin_in, int i)
+{
+    struct sums sum = w->own[i];
+    for (int k = begin_in[i]; k < begin_in[i + 1]; k++) {
+        sum.force -= __builtin_convertvector(w->record[k].force, double4);
+        sum.torque += __builtin_convertvector(w->record[k].torque, double4);
+    }
+    return sum;
+}
+
+/* Adds up what the runs report: forces on the walls with their impulses since the last time,
+ * and, after a step that was asked for them, energies, counts and overlaps. */
+void contact_collect(struct sim *s, int steps);
 
 /* Stops the run (EXIT_UNSTABLE) where grains overlapped too deeply. */
 void contact_guard(const struct sim *s);

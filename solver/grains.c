@@ -96,8 +96,6 @@ static void register_fields(struct sim *s)
          both},
         {"velocity", "m s-1", "velocity of the grain", PLACE_GRAIN, KIND_VEC3, (void **)&g->vel,
          both},
-        {"velocity_full", "m s-1", "predicted velocity for dashpots", PLACE_GRAIN, KIND_VEC3,
-         (void **)&g->vel_full, state},
         {"spin", "rad s-1", "angular velocity of the grain", PLACE_GRAIN, KIND_VEC3,
          (void **)&g->spin, both},
         {"force", "N", "force on the grain without its weight", PLACE_GRAIN, KIND_VEC3,
@@ -125,8 +123,8 @@ static void allocate(struct grains *g, int n)
     g->n = g->capacity = n;
     g->id = xalloc((size_t)n, sizeof *g->id);
     g->kind = xalloc((size_t)n, sizeof *g->kind);
-    vec3 **const vectors[] = {&g->pos,   &g->vel,    &g->vel_full, &g->spin,
-                              &g->force, &g->torque, &g->load,     &g->load_torque};
+    vec3 **const vectors[] = {&g->pos,    &g->vel,  &g->spin,       &g->force,
+                              &g->torque, &g->load, &g->load_torque};
     double **const numbers[] = {&g->radius, &g->mass, &g->inv_mass, &g->inv_inertia,
                                 &g->volume};
     for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
@@ -220,10 +218,10 @@ void grains_create(struct sim *s, struct scene *scene)
 void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
-    void *const all[] = {g->vel_full, g->id,        g->kind,     g->pos,         g->vel,
-                         g->spin,     g->force,     g->torque,   g->load,        g->load_torque,
-                         g->radius,   g->mass,      g->inv_mass, g->inv_inertia, g->volume,
-                         g->species,  g->materials, g->follower};
+    void *const all[] = {g->id,        g->kind,     g->pos,         g->vel,         g->spin,
+                         g->force,     g->torque,   g->load,        g->load_torque, g->radius,
+                         g->mass,      g->inv_mass, g->inv_inertia, g->volume,      g->species,
+                         g->materials, g->follower};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

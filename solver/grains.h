@@ -43,8 +43,7 @@ struct grains {
     int *id;
     int *kind;           /* index of the species */
     vec3 *pos;           /* m; up to half a skin outside a periodic box between rebuilds */
-    vec3 *vel;           /* m/s; at the half step while forces are computed */
-    vec3 *vel_full;      /* m/s, predicted for the full step, for dashpots */
+    vec3 *vel;           /* m/s; at the half step while forces are computed (body.h) */
     vec3 *spin;          /* rad/s, in the frame of the laboratory */
     vec3 *force;         /* N, all of it but the weight */
     vec3 *torque;        /* N m */

@@ -109,6 +109,7 @@ static void summarise(struct sim *s, double begin)
         summary_number(&s->summary, "grain_steps_per_second",
                        (double)s->substep * s->grains.n / loop, "s-1");
     drag_grains_report(s);
+    summary_number(&s->summary, "active_choices", (double)s->neighbours.choices, "1");
     summary_number(&s->summary, "list_builds", (double)s->neighbours.builds, "1");
     summary_number(&s->summary, "contacts_per_grain",
                    s->grains.n > 0 ? (double)s->neighbours.touching / s->grains.n : 0.0, "1");

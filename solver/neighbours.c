@@ -1,5 +1,5 @@
-/* neighbours.c - the pair list: grains sorted by search cell, pairs found in the 27 cells
- * around, the history of live contacts carried from the old list to the new.
+/* neighbours.c - the lists of slots: made from the search grid, with the memory of live contacts
+ * carried from the old list to the new.
  *
  * The skin adapts to the motion: thick while grains fall, thin in a bed at rest. It follows
  * from the state alone, so it is the same on any number of threads and after a restart. */
@@ -8,18 +8,14 @@
 #include <string.h>
 #include "../contact/contact.h"
 #include "contact_loop.h"
+#include "search.h"
 #include "sim.h"
 
-#define SKIN_LEAST 0.10 /* of the mean diameter */
-#define SKIN_MOST  0.30
-#define SKIN_STEPS 25.0 /* steps that a skin should last */
-
-/* The search grid of one build. */
-struct search {
-    int n[3];
-    double edge[3];
-    int *begin; /* cells + 1: grains are sorted by cell */
-};
+#define SKIN_LEAST  0.06 /* of the mean diameter */
+#define SKIN_MOST   0.30
+#define SKIN_STEPS  30.0 /* steps that a skin should last */
+#define INNER_STEPS 16.0 /* steps that the thin skin should last */
+#define INNER_MOST  0.01 /* of the mean diameter: thicker, it costs more than it saves */
 
 void neighbours_check(const struct sim *s, struct scene *scene)
 {
@@ -37,282 +33,289 @@ void neighbours_check(const struct sim *s, struct scene *scene)
                 least, 'x' + a);
 }
 
+static void slots_create(struct slots *l, int grains)
+{
+    l->begin = xalloc((size_t)grains + 1, sizeof *l->begin);
+}
+
+static void slots_free(struct slots *l)
+{
+    void *const all[] = {l->begin,  l->owner,  l->other,   l->live,
+                         l->memory, l->active, l->n_active};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+    *l = (struct slots){0};
+}
+
 void neighbours_create(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
+    const int n = s->grains.n;
     nb->reach = contact_reach();
     nb->rows = contact_rows();
-    nb->begin = xalloc((size_t)s->grains.n + 1, sizeof *nb->begin);
+    slots_create(&nb->pairs, n);
+    slots_create(&nb->walls, n);
+    nb->moved = nb->moved_inner = (double)INFINITY; /* stale from the start */
+    frame_of(&s->frame, &s->domain);
     grains_follow(&s->grains, (void **)&nb->begin_in, sizeof *nb->begin_in);
-    grains_follow(&s->grains, (void **)&nb->pos_built, sizeof *nb->pos_built);
-    nb->moved = (double)INFINITY; /* stale from the start */
+    grains_follow(&s->grains, (void **)&s->bodies, sizeof *s->bodies);
 }
 
 void neighbours_free(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
-    void *const all[] = {nb->begin,    nb->owner, nb->other,   nb->begin_in,
-                         nb->slots_in, nb->live,  nb->history, nb->pos_built};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        xfree(all[i]);
+    slots_free(&nb->pairs);
+    slots_free(&nb->walls);
+    for (int k = 0; k < 2; k++)
+        slots_free(&nb->spare[k]);
+    xfree(nb->to);
+    xfree(nb->begin_in);
+    xfree(s->bodies);
 }
 
-static double choose_skin(const struct sim *s)
+/* The skins: thick enough for a number of steps at the largest speed. */
+static void choose_skins(struct sim *s)
 {
     const struct grains *const g = &s->grains;
-    double fastest = 0.0, sum = 0.0;
-    for (int i = 0; i < g->n; i++) {
+    double fastest = 0.0;
+    for (int i = 0; i < g->n; i++)
         fastest = fmax(fastest, v3_dot(g->vel[i], g->vel[i]));
-        sum += g->radius[i];
+    const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
+    const double way = 2.0 * sqrt(fastest) * s->run.dt;
+    s->neighbours.skin = fmin(fmax(SKIN_STEPS * way, SKIN_LEAST * mean), SKIN_MOST * mean);
+    const double inner = fmin(INNER_STEPS * way, INNER_MOST * mean);
+    s->neighbours.inner = inner > 2.0 * way ? inner : 0.0;
+}
+
+/* Room for n slots of `grains` grains; what was there is lost. */
+static void slots_reserve(struct slots *l, size_t n, int grains, int rows)
+{
+    xfree(l->begin);
+    xfree(l->n_active);
+    slots_create(l, grains);
+    l->n_active = xalloc((size_t)(grains / RUN + 1), sizeof *l->n_active);
+    l->n = n;
+    if (n > l->capacity || !l->owner) {
+        const size_t room = n + n / 16 + 64;
+        xfree(l->owner);
+        xfree(l->other);
+        xfree(l->live);
+        xfree(l->memory);
+        xfree(l->active);
+        l->owner = xalloc(room, sizeof *l->owner);
+        l->other = xalloc(room, sizeof *l->other);
+        l->active = xalloc(room, sizeof *l->active);
+        l->live = xalloc(room, 1);
+        l->memory = xalloc(room * (size_t)rows + 1, sizeof *l->memory);
+        l->capacity = room;
     }
-    const double mean = g->n > 0 ? 2.0 * sum / g->n : 0.0;
-    const double wish = 2.0 * SKIN_STEPS * sqrt(fastest) * s->run.dt;
-    return fmin(fmax(wish, SKIN_LEAST * mean), SKIN_MOST * mean);
 }
 
-static double largest_radius(const struct grains *g)
-{
-    double r = 0.0;
-    for (int i = 0; i < g->n; i++)
-        r = fmax(r, g->radius[i]);
-    return r;
-}
+/* Finds the slots of each run of grains by `find`, which appends those of a grain. */
+typedef int finder(const struct search *c, const struct sim *s, double margin, int i, int **out,
+                   int *room, int n);
 
-/* Cells no smaller than the widest pair, and not many more of them than grains. */
-static void search_open(struct search *c, const struct sim *s)
+static int find_walls(const struct search *c, const struct sim *s, double margin, int i,
+                      int **out, int *room, int n)
 {
-    const struct neighbours *const nb = &s->neighbours;
-    double edge = 2.0 * largest_radius(&s->grains) + nb->reach + nb->skin;
-    const double *const size = s->domain.size;
-    const double room = size[0] * size[1] * size[2] / (4.0 * s->grains.n + 64.0);
-    edge = fmax(edge, cbrt(room));
-    for (int a = 0; a < 3; a++) {
-        c->n[a] = (int)fmin(fmax(1.0, floor(size[a] / edge)), 1000.0);
-        c->edge[a] = size[a] / c->n[a];
+    (void)c;
+    if (n + WALLS_NEAR > *room) {
+        const int more = 2 * n + 1024 + WALLS_NEAR;
+        *out = xrealloc(*out, (size_t)*room, (size_t)more, sizeof **out);
+        *room = more;
     }
+    return n + walls_near(s, i, margin, *out + n);
 }
 
-static int search_index(const struct search *c, const struct domain *d, double x, int a)
+static void die_full(const struct sim *s)
 {
-    int i = (int)floor(x / c->edge[a]);
-    if (d->periodic[a])
-        i = (i % c->n[a] + c->n[a]) % c->n[a];
-    return i < 0 ? 0 : i >= c->n[a] ? c->n[a] - 1 : i;
+    die(EXIT_UNSTABLE,
+        "more than 2e9 pairs of grains are near each other at t = %g s: the grains overlap all "
+        "over",
+        s->t);
 }
 
-static int search_cell(const struct search *c, const struct domain *d, vec3 x)
+static void fill_slots(struct sim *s, const struct search *c, finder *find, struct slots *l)
 {
-    return search_index(c, d, x.x, 0) +
-           c->n[0] * (search_index(c, d, x.y, 1) + c->n[1] * search_index(c, d, x.z, 2));
-}
-
-/* Sorts all arrays of the grains by search cell, without those that are gone (id < 0); returns
- * order[new] = old. */
-static int *sort_grains(struct sim *s, struct search *c)
-{
-    struct grains *const g = &s->grains;
-    const int cells = c->n[0] * c->n[1] * c->n[2];
-    int *const order = xalloc((size_t)g->n, sizeof *order);
-    int *const home = xalloc((size_t)g->n, sizeof *home);
-    c->begin = xalloc((size_t)cells + 1, sizeof *c->begin);
-    for (int i = 0; i < g->n; i++) {
-        if (g->id[i] < 0)
-            continue;
-        g->pos[i] = domain_wrap(&s->domain, g->pos[i]);
-        home[i] = search_cell(c, &s->domain, g->pos[i]);
-        c->begin[home[i] + 1]++;
+    struct neighbours *const nb = &s->neighbours;
+    const int n = s->grains.n, runs = nb->runs;
+    const double margin = nb->reach + nb->skin;
+    int **const found = xalloc((size_t)runs + 1, sizeof *found);
+    int *const begin = xalloc((size_t)n + 1, sizeof *begin);
+    int *const first = xalloc((size_t)runs + 1, sizeof *first);
+#pragma omp parallel for schedule(dynamic, 4)
+    for (int run = 0; run < runs; run++) {
+        int room = 0, count = 0;
+        for (int i = run * RUN; i < n && i < (run + 1) * RUN; i++) {
+            count = find(c, s, margin, i, &found[run], &room, count);
+            begin[i + 1] = count;
+        }
+        first[run + 1] = count;
     }
-    for (int k = 0; k < cells; k++)
-        c->begin[k + 1] += c->begin[k];
-    int *const next = xalloc((size_t)cells, sizeof *next);
-    memcpy(next, c->begin, (size_t)cells * sizeof *next);
-    for (int i = 0; i < g->n; i++)
-        if (g->id[i] >= 0)
-            order[next[home[i]]++] = i;
-    g->n = c->begin[cells];
-    xfree(next);
-    xfree(home);
-#pragma omp parallel for schedule(dynamic)
-    for (int f = 0; f < s->fields.n; f++) {
-        const struct field *const field = &s->fields.field[f];
-        if (field->place != PLACE_GRAIN)
-            continue;
-        const size_t size = kind_size(field->kind);
-        char *const old = *field->data, *const sorted = xalloc((size_t)g->capacity, size);
-        for (int i = 0; i < g->n; i++)
-            memcpy(sorted + (size_t)i * size, old + (size_t)order[i] * size, size);
-        *field->data = sorted;
-        xfree(old);
+    size_t total = 0;
+    for (int run = 0; run < runs; run++) {
+        total += (size_t)first[run + 1];
+        if (total > 2000000000u)
+            die_full(s);
+        first[run + 1] = (int)total;
     }
-    return order;
-}
-
-/* Neighbouring search cells along an axis, each once; returns how many. */
-static int around(const struct search *c, const struct domain *d, int i, int a, int out[3])
-{
-    int n = 0;
-    for (int o = -1; o <= 1; o++) {
-        int k = i + o;
-        if (d->periodic[a])
-            k = (k + c->n[a]) % c->n[a];
-        bool seen = k < 0 || k >= c->n[a];
-        for (int m = 0; m < n; m++)
-            seen = seen || out[m] == k;
-        if (!seen)
-            out[n++] = k;
-    }
-    return n;
-}
-
-/* The slots that grain i owns, into `out` if it is not NULL; returns how many. */
-static int pairs_of(const struct sim *s, const struct search *c, int i, int *out)
-{
-    const struct grains *const g = &s->grains;
-    const double margin = s->neighbours.reach + s->neighbours.skin;
-    const vec3 x = g->pos[i];
-    const bool frozen = g->inv_mass[i] == 0.0;
-    const double at[3] = {x.x, x.y, x.z};
-    int near[3][3], n[3], found = 0;
-    for (int a = 0; a < 3; a++)
-        n[a] = around(c, &s->domain, search_index(c, &s->domain, at[a], a), a, near[a]);
-    for (int k = 0; k < n[2]; k++)
-        for (int j = 0; j < n[1]; j++)
-            for (int h = 0; h < n[0]; h++) {
-                const int home = near[0][h] + c->n[0] * (near[1][j] + c->n[1] * near[2][k]);
-                for (int m = c->begin[home]; m < c->begin[home + 1]; m++) {
-                    if (g->id[m] <= g->id[i] || (frozen && g->inv_mass[m] == 0.0))
-                        continue;
-                    const vec3 r = domain_minimum_image(&s->domain, v3_sub(x, g->pos[m]));
-                    const double cut = g->radius[i] + g->radius[m] + margin;
-                    if (v3_dot(r, r) >= cut * cut)
-                        continue;
-                    if (out)
-                        out[found] = m;
-                    found++;
-                }
+    slots_reserve(l, total, n, nb->rows);
+#pragma omp parallel for schedule(dynamic, 4)
+    for (int run = 0; run < runs; run++) {
+        int slot = first[run];
+        for (int i = run * RUN; i < n && i < (run + 1) * RUN; i++) {
+            l->begin[i + 1] = first[run] + begin[i + 1];
+            for (; slot < l->begin[i + 1]; slot++) {
+                l->owner[slot] = i;
+                l->other[slot] = found[run][slot - first[run]];
             }
-    for (int w = 0; w < s->walls.n && !frozen; w++) {
-        const struct wall *const wall = &s->walls.wall[w];
-        if (v3_dot(v3_sub(x, wall->point), wall->normal) >= g->radius[i] + margin)
-            continue;
-        if (out)
-            out[found] = -1 - w;
-        found++;
+        }
+        xfree(found[run]);
     }
-    return found;
+    xfree(found);
+    xfree(begin);
+    xfree(first);
 }
 
-/* The old list, kept while the new one is made. */
-struct old_list {
-    int n; /* grains that it knows; those that came since have larger indices */
-    int *begin, *other;
-    unsigned char *live;
-    double *history;
-};
-
-/* Copies the history of the live contacts of grain i from the old list. */
-static void carry_history(struct neighbours *nb, const struct old_list *old, const int *order,
-                          int i)
+/* Copies the memory of the live contacts of grain i from the old list; the rest is zero. */
+static void carry_memory(struct slots *l, const struct slots *old, const int *order, bool pairs,
+                         int i, int listed, int rows)
 {
     const int was = order[i];
-    for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++) {
-        const int other = nb->other[t] < 0 ? nb->other[t] : order[nb->other[t]];
-        nb->live[t] = 0;
-        for (int o = was < old->n ? old->begin[was] : 0;
-             was < old->n && o < old->begin[was + 1]; o++) {
+    const size_t size = (size_t)rows * sizeof *l->memory;
+    for (int t = l->begin[i]; t < l->begin[i + 1]; t++) {
+        const int other = pairs ? order[l->other[t]] : l->other[t];
+        l->live[t] = 0;
+        memset(&l->memory[(size_t)t * rows], 0, size);
+        if (was >= listed)
+            continue;
+        for (int o = old->begin[was]; o < old->begin[was + 1]; o++) {
             if (!old->live[o] || old->other[o] != other)
                 continue;
-            nb->live[t] = 1;
-            memcpy(&nb->history[(size_t)t * nb->rows], &old->history[(size_t)o * nb->rows],
-                   (size_t)nb->rows * sizeof(double));
+            l->live[t] = 1;
+            memcpy(&l->memory[(size_t)t * rows], &old->memory[(size_t)o * rows], size);
             break;
         }
     }
 }
 
+/* A new list in the room of the spare one, which then holds the old. */
+static void make_slots(struct sim *s, const struct search *c, const int *order, bool pairs)
+{
+    struct neighbours *const nb = &s->neighbours;
+    struct slots *const l = pairs ? &nb->pairs : &nb->walls;
+    struct slots *const spare = &nb->spare[pairs ? 0 : 1];
+    const struct slots old = *l;
+    *l = *spare;
+    fill_slots(s, c, pairs ? search_pairs : find_walls, l);
+#pragma omp parallel for schedule(dynamic, 256)
+    for (int i = 0; i < s->grains.n; i++)
+        carry_memory(l, &old, order, pairs, i, nb->listed, nb->rows);
+    *spare = old;
+}
+
+static void sort_slots(int *slot, int n)
+{
+    for (int a = 1; a < n; a++) {
+        const int v = slot[a];
+        int b = a;
+        for (; b > 0 && slot[b - 1] > v; b--)
+            slot[b] = slot[b - 1];
+        slot[b] = v;
+    }
+}
+
+/* Gives each pair slot its place among those of its other grain, in the order of the slots. */
 static void list_incoming(struct neighbours *nb, int n)
 {
+    const struct slots *const l = &nb->pairs;
+    int *const slots = xalloc(l->n + 1, sizeof *slots);
+    int *const next = xalloc((size_t)n + 1, sizeof *next);
+    xfree(nb->to);
+    nb->to = xalloc(l->n + 1, sizeof *nb->to);
     memset(nb->begin_in, 0, ((size_t)n + 1) * sizeof *nb->begin_in);
-    for (size_t t = 0; t < nb->n_slots; t++)
-        if (nb->other[t] >= 0)
-            nb->begin_in[nb->other[t] + 1]++;
+#pragma omp parallel for schedule(static)
+    for (size_t t = 0; t < l->n; t++)
+#pragma omp atomic
+        nb->begin_in[l->other[t] + 1]++;
     for (int i = 0; i < n; i++)
         nb->begin_in[i + 1] += nb->begin_in[i];
-    int *const next = xalloc((size_t)n, sizeof *next);
     memcpy(next, nb->begin_in, (size_t)n * sizeof *next);
-    for (size_t t = 0; t < nb->n_slots; t++)
-        if (nb->other[t] >= 0)
-            nb->slots_in[next[nb->other[t]]++] = (int)t;
+#pragma omp parallel for schedule(static)
+    for (size_t t = 0; t < l->n; t++) {
+        int place;
+#pragma omp atomic capture
+        place = next[l->other[t]]++;
+        slots[place] = (int)t;
+    }
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (int i = 0; i < n; i++) {
+        sort_slots(slots + nb->begin_in[i], nb->begin_in[i + 1] - nb->begin_in[i]);
+        for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++)
+            nb->to[slots[k]] = k;
+    }
+    xfree(slots);
     xfree(next);
 }
 
-static void make_slots(struct sim *s, const struct search *c, const int *order)
+void neighbours_speed(struct sim *s, int step, double square)
+{
+    double *const fastest = &s->neighbours.fastest[step % 2];
+#pragma omp critical(neighbours_speed)
+    if (!(square <= *fastest)) /* the largest; not a number stays */
+        *fastest = square;
+}
+
+struct ageing neighbours_ageing(const struct sim *s, bool new)
+{
+    const struct neighbours *const nb = &s->neighbours;
+    return (struct ageing){
+        .moved = nb->moved, .moved_inner = new ? 0.0 : nb->moved_inner, .choose = true};
+}
+
+/* The speeds of two steps are kept apart, so that one can be cleared while the other is read. */
+bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
 {
     struct neighbours *const nb = &s->neighbours;
-    const int n = s->grains.n;
-    struct old_list old = {.other = nb->other, .live = nb->live, .history = nb->history};
-    old.begin = nb->begin;
-    old.n = nb->n_listed;
-    nb->n_listed = n;
-    nb->begin = xalloc((size_t)n + 1, sizeof *nb->begin);
-#pragma omp parallel for schedule(dynamic, 256)
-    for (int i = 0; i < n; i++)
-        nb->begin[i + 1] = pairs_of(s, c, i, NULL);
-    size_t total = 0;
-    for (int i = 0; i < n; i++) {
-        total += (size_t)nb->begin[i + 1];
-        if (total > 2000000000u)
-            die(EXIT_UNSTABLE,
-                "more than 2e9 pairs of grains are near each other at t = %g s: "
-                "the grains overlap all over",
-                s->t);
-        nb->begin[i + 1] = (int)total;
+    const double way = sqrt(nb->fastest[step % 2]) * s->run.dt;
+    age->moved += way;
+    age->moved_inner += way;
+    if (!(age->moved <= 0.5 * nb->skin))
+        return false;
+    age->choose = !(age->moved_inner <= 0.5 * nb->inner);
+    if (age->choose) {
+        age->moved_inner = 0.0;
+        age->choices++;
     }
-    nb->n_slots = total;
-    nb->other = xalloc(total, sizeof *nb->other);
-    nb->live = xalloc(total, 1);
-    nb->history = xalloc(total * (size_t)nb->rows, sizeof *nb->history);
-    xfree(nb->owner);
-    xfree(nb->slots_in);
-    nb->owner = xalloc(total, sizeof *nb->owner);
-    nb->slots_in = xalloc(total, sizeof *nb->slots_in);
-#pragma omp parallel for schedule(dynamic, 256)
-    for (int i = 0; i < n; i++) {
-        pairs_of(s, c, i, &nb->other[nb->begin[i]]);
-        for (int t = nb->begin[i]; t < nb->begin[i + 1]; t++)
-            nb->owner[t] = i;
-        carry_history(nb, &old, order, i);
-    }
-    xfree(old.begin);
-    xfree(old.other);
-    xfree(old.live);
-    xfree(old.history);
+#pragma omp master
+    nb->fastest[(step + 1) % 2] = 0.0;
+    return true;
 }
 
-void neighbours_moved(struct sim *s, double moved)
+void neighbours_aged(struct sim *s, const struct ageing *age)
 {
-#pragma omp critical(neighbours_moved)
-    if (!(moved <= s->neighbours.moved)) /* the largest; not a number stays */
-        s->neighbours.moved = moved;
-}
-
-bool neighbours_stale(const struct sim *s)
-{
-    return !(s->neighbours.moved <= 0.5 * s->neighbours.skin);
+    struct neighbours *const nb = &s->neighbours;
+    nb->moved = age->moved;
+    nb->moved_inner = age->moved_inner;
+    nb->choices += age->choices;
+    nb->fastest[0] = nb->fastest[1] = 0.0;
 }
 
 void neighbours_rebuild(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
     struct search c;
-    nb->skin = choose_skin(s);
-    search_open(&c, s);
-    int *const order = sort_grains(s, &c);
-    make_slots(s, &c, order);
+    choose_skins(s);
+    int *const order = search_sort(&c, s, nb->reach + nb->skin);
+    nb->runs = (s->grains.n + RUN - 1) / RUN;
+    bodies_sort(s, order);
+    make_slots(s, &c, order, true);
+    make_slots(s, &c, order, false);
     list_incoming(nb, s->grains.n);
-    memcpy(nb->pos_built, s->grains.pos, (size_t)s->grains.n * sizeof *nb->pos_built);
+    nb->listed = s->grains.n;
     nb->moved = 0.0;
+    nb->moved_inner = (double)INFINITY;
     nb->builds++;
     xfree(order);
-    xfree(c.begin);
+    search_free(&c);
 }

@@ -1,34 +1,51 @@
-/* neighbours.h - which grains may touch: a list of pairs with a skin, from a cell grid.
+/* neighbours.h - which bodies may touch: lists of pairs with a skin, from a cell grid.
  *
- * A slot of the list is a pair owned by one grain: the one with the smaller id, or the grain of
- * a grain-wall pair. Slots of an owner are consecutive: begin[i]..begin[i+1]-1. The history of
- * a contact lives in its slot and moves with it when the list is rebuilt. The list is rebuilt
- * when a grain has moved half a skin since it was made; grains are then sorted by cell. */
+ * A slot of a list is a pair owned by one grain: of two grains the smaller one (of like ones
+ * that with the smaller id), or the grain of a grain-wall pair. Slots of an owner are
+ * consecutive: begin[i]..begin[i+1]-1. The memory of a contact lives in its slot and moves with
+ * it when the list is rebuilt; that of a slot without contact is zero.
+ *
+ * The list is rebuilt when the fastest grains of the steps since may have brought two bodies
+ * nearer by the skin (the sum of the largest speeds times the step, so no position needs to be
+ * kept). Of the slots, those within a much thinner skin are active: only these are looked at in
+ * a step, and they are chosen anew when that skin is used up. */
 #ifndef NEIGHBOURS_H
 #define NEIGHBOURS_H
 
 #include "domain.h"
+#include "real.h"
 
 struct sim;
 struct scene;
 
+enum { RUN = 128 }; /* grains per run, the unit of work of the contact loop */
+
+struct slots {
+    size_t n, capacity;
+    int *begin;          /* n grains + 1 */
+    int *owner, *other;  /* per slot: grains; of a wall slot, `other` is an element of a wall */
+    unsigned char *live; /* per slot: it touched at the last step */
+    real *memory;        /* n x rows, of the laws */
+    int *active;         /* per run, from begin[first grain] on: slots to look at */
+    int *n_active;       /* per run */
+};
+
 struct neighbours {
     double skin;  /* m */
+    double inner; /* m, the thin skin */
     double reach; /* m, gap up to which laws act */
-    int n_listed; /* grains in the list */
-    size_t n_slots, capacity;
-    int *begin;    /* n + 1 */
-    int *owner;    /* per slot */
-    int *other;    /* per slot: grain index, or -1 - wall */
-    int *begin_in; /* n + 1: slots in which a grain is the other one */
-    int *slots_in;
-    unsigned char *live; /* per slot: it touched at the last step, its history counts */
-    int rows;            /* doubles of history per slot */
-    double *history;     /* n_slots x rows */
-    vec3 *pos_built;     /* m, positions when the list was made */
-    double moved;        /* m, largest displacement since */
-    long builds;
-    long touching; /* contacts at the last step */
+    int rows;     /* reals of memory per slot */
+    int runs;     /* of the grains at hand */
+    struct slots pairs, walls;
+    struct slots spare[2]; /* the lists before, room for the next */
+    int *to;               /* per pair slot: its place among the slots of the other grain */
+    int *begin_in;         /* n + 1: places of a grain as the other one */
+    int listed;            /* grains in the lists; newcomers stand behind them */
+    double moved;          /* m, that a grain may have moved since the list was made */
+    double moved_inner;    /* m, since the active slots were chosen */
+    double fastest[2]; /* m2/s2, squares of largest speeds, of the step at hand and the next */
+    long builds, choices; /* lists made, active slots chosen */
+    long touching;        /* contacts, when last counted */
 };
 
 /* A periodic direction must have room for a pair and its images: else an error of the scene. */
@@ -36,10 +53,24 @@ void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 
-/* A thread reports the largest displacement among its grains, m. */
-void neighbours_moved(struct sim *s, double moved);
-bool neighbours_stale(const struct sim *s);
-/* Sorts the grains, makes the list anew. Grains that came since the last list stand behind the
+/* A thread reports the square of the largest speed among its grains, for a step
+ * whose parity is that of `step`. */
+void neighbours_speed(struct sim *s, int step, double square);
+
+/* How old the lists are, as every thread of a team counts it for itself. */
+struct ageing {
+    double moved, moved_inner; /* m */
+    bool choose;               /* the active slots are to be chosen anew at this step */
+    long choices;
+};
+
+/* `new`: the lists were made after the last drift. */
+struct ageing neighbours_ageing(const struct sim *s, bool new);
+/* After the drift of a step of this parity: adds its largest way; false if the list is stale. */
+bool neighbours_fresh(struct sim *s, struct ageing *age, int step);
+void neighbours_aged(struct sim *s, const struct ageing *age); /* keeps it, by one thread */
+
+/* Sorts the grains, makes the lists anew. Grains that came since the last list stand behind the
  * others; one that is to go is marked by id = -1 and leaves here. */
 void neighbours_rebuild(struct sim *s);
 

@@ -1,11 +1,11 @@
 /* sim.c - makes a run from a scene, and unmakes it. */
 #include "sim.h"
 
-#include <string.h>
 #include "../reference/reference.h"
 #include "contact_loop.h"
 #include "feasibility.h"
 #include "modules.h"
+#include "motion.h"
 #include "run.h"
 
 struct sim *sim_alloc(void)
@@ -35,16 +35,17 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
 
 void sim_start(struct sim *s)
 {
-    memcpy(s->grains.vel_full, s->grains.vel, (size_t)s->grains.n * sizeof(vec3));
     if (s->grains.n == s->grains.n_frozen)
         return;
+    bodies_fill(s);
     neighbours_rebuild(s);
     contact_prepare(s);
 #pragma omp parallel
     {
-        contact_loop(s);
-        contact_gather(s);
+        contact_loop(s, true, true);
+        motion_forces(s);
     }
+    contact_collect(s, 0);
     contact_guard(s);
 }
 

@@ -4,6 +4,7 @@
 #define SIM_H
 
 #include <signal.h>
+#include "body.h"
 #include "coupling.h"
 #include "domain.h"
 #include "flow.h"
@@ -42,6 +43,8 @@ struct sim {
     struct run run;
     struct domain domain;
     struct grains grains;
+    struct frame frame;
+    struct body *bodies; /* per grain, as the contact loop reads it */
     struct neighbours neighbours;
     struct walls walls;
     struct contact_work *contacts;

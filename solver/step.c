@@ -14,28 +14,31 @@ static double lap(struct timers *t, enum timer which, double since)
 
 /* Steps of one team of threads, until n are done or the pair list is stale (with the grains
  * drifted already); returns how many are done. The threads meet twice a step: after the drift,
- * and before records of contacts are gathered. */
+ * and before the forces on a grain are gathered. */
 static int team_steps(struct sim *s, int n, bool drifted)
 {
     struct timers *const t = &s->timers;
     double clock = wall_clock();
     int done = 0;
-    while (done < n) {
-        if (!drifted) {
-            motion_kick_drift(s);
-            clock = lap(t, TIME_MOTION, clock);
-            if (neighbours_stale(s) || s->overlap > s->run.overlap_max)
-                break;
-        }
+    if (!drifted)
+        motion_start(s, 0);
+    clock = lap(t, TIME_MOTION, clock);
+    struct ageing age = neighbours_ageing(s, drifted);
+    while (drifted || neighbours_fresh(s, &age, done)) {
         drifted = false;
-        contact_loop(s); /* shapes -> contact (+ cohesion, rolling, bond) -> one record each */
+        contact_loop(s, age.choose, done == n - 1); /* shapes -> contact (+ cohesion ...) */
         clock = lap(t, TIME_CONTACTS, clock);
-        contact_gather(s);
-        clock = lap(t, TIME_GATHER, clock);
-        motion_kick(s);
-        clock = lap(t, TIME_MOTION, clock);
+        if (s->contacts->too_deep)
+            break;
         done++;
+        motion_turn(s, done == n, done); /* gather, kick; kick and drift of the next step */
+        clock = lap(t, TIME_MOTION, clock);
+        if (done == n)
+            break;
     }
+#pragma omp barrier
+#pragma omp master
+    neighbours_aged(s, &age);
     return done;
 }
 
@@ -62,6 +65,7 @@ void step_grains(struct sim *s, int n)
             timer_add(&s->timers, TIME_NEIGHBOURS, clock);
         }
     }
+    contact_collect(s, n);
 }
 
 void step(struct sim *s)

@@ -84,3 +84,31 @@ void walls_create(struct sim *s, struct scene *scene)
     for (int i = 0; i < n; i++)
         add_named(s, scene, names[i]);
 }
+
+vec3 wall_distance(const struct sim *s, int element, vec3 x)
+{
+    const struct wall *const w = &s->walls.wall[element];
+    return v3_scale(v3_dot(v3_sub(x, w->point), w->normal), w->normal);
+}
+
+int walls_near(const struct sim *s, int i, double margin, int *out)
+{
+    const struct grains *const g = &s->grains;
+    int n = 0;
+    if (g->inv_mass[i] == 0.0)
+        return 0;
+    for (int k = 0; k < s->walls.n; k++) {
+        const struct wall *const w = &s->walls.wall[k];
+        if (v3_dot(v3_sub(g->pos[i], w->point), w->normal) < g->radius[i] + margin)
+            out[n++] = k;
+    }
+    return n;
+}
+
+void walls_impulse(vec3 *force, vec3 *sum, vec3 *impulse, vec3 now, int steps, double dt)
+{
+    if (steps > 0)
+        *impulse = v3_axpy(*impulse, dt, v3_add(*sum, v3_scale(0.5, v3_sub(*force, now))));
+    *force = now;
+    *sum = v3(0.0, 0.0, 0.0);
+}
