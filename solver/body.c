@@ -26,11 +26,11 @@ void bodies_fill(struct sim *s)
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < g->n; i++) {
         const vec3 v = g->vel[i], w = g->spin[i];
-        s->bodies[i] = (struct body){
-            .place = frame_place(&s->frame, g->pos[i]),
-            .vel = {(real)v.x, (real)v.y, (real)v.z, (real)g->inv_mass[i]},
-            .full = {(real)v.x, (real)v.y, (real)v.z, (real)grain_material(g, i)},
-            .spin = {(real)w.x, (real)w.y, (real)w.z, (real)g->radius[i]}};
+        s->bodies[i] =
+            (struct body){.place = frame_place(&s->frame, g->pos[i]),
+                          .vel = {(real)v.x, (real)v.y, (real)v.z, (real)g->inv_mass[i]},
+                          .full = {(real)v.x, (real)v.y, (real)v.z, (real)grain_material(g, i)},
+                          .spin = {(real)w.x, (real)w.y, (real)w.z, (real)g->radius[i]}};
     }
 }
 

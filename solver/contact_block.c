@@ -37,7 +37,8 @@ static void unpack(const struct frame *f, struct block *b)
     const real lx = f->image[0], ly = f->image[1], lz = f->image[2];
     const real ix = f->inv_image[0], iy = f->inv_image[1], iz = f->inv_image[2];
     const coordinate *const restrict d = (const coordinate *)b->d;
-    const real *const restrict v = (const real *)b->v, *const restrict p = (const real *)b->spin_i;
+    const real *const restrict v = (const real *)b->v, *const restrict p =
+                                                           (const real *)b->spin_i;
     const real *const restrict q = (const real *)b->spin_j;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
@@ -66,7 +67,8 @@ static void velocities(struct block *b)
 {
     struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
-    const real *const restrict p = (const real *)b->spin_i, *const restrict q = (const real *)b->spin_j;
+    const real *const restrict p = (const real *)b->spin_i, *const restrict q =
+                                                                (const real *)b->spin_j;
     const real *const restrict u = (const real *)b->full;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
@@ -111,11 +113,19 @@ static inline __attribute__((always_inline)) void load_rows(struct block *b, int
 static void load_memory(struct block *b, int rows)
 {
     switch (rows) { /* the common numbers unrolled */
-    case 0: break;
-    case 3: load_rows(b, 3); break;
-    case 4: load_rows(b, 4); break;
-    case 7: load_rows(b, 7); break;
-    default: load_rows(b, rows);
+    case 0:
+        break;
+    case 3:
+        load_rows(b, 3);
+        break;
+    case 4:
+        load_rows(b, 4);
+        break;
+    case 7:
+        load_rows(b, 7);
+        break;
+    default:
+        load_rows(b, rows);
     }
 }
 
@@ -290,10 +300,17 @@ void block_work(struct sim *s, struct block *b, int first, struct sums *own,
         memset(b->t.broke, 0, sizeof b->t.broke);
     apply_laws(b);
     switch (s->neighbours.rows) {
-    case 3: store_rows(b, 3); break;
-    case 4: store_rows(b, 4); break;
-    case 7: store_rows(b, 7); break;
-    default: store_rows(b, s->neighbours.rows);
+    case 3:
+        store_rows(b, 3);
+        break;
+    case 4:
+        store_rows(b, 4);
+        break;
+    case 7:
+        store_rows(b, 7);
+        break;
+    default:
+        store_rows(b, s->neighbours.rows);
     }
     if (needs & TOUCH_COUPLES)
         pack(b, true);

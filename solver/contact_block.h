@@ -31,20 +31,20 @@ struct sums { /* of the contacts that a grain owns */
 };
 
 struct block {
-    int n;                        /* contacts so far, TOUCH at most */
-    struct candidates c;          /* the same, as shapes see them */
-    int to[TOUCH];                /* place of the record; -1 - index of a wall */
-    unsigned char *live[TOUCH];   /* of the slot */
-    real *memory[TOUCH];          /* of the slot */
-    coordinate4 d[TOUCH];         /* place i - place j */
-    real4 v[TOUCH];               /* vel i - vel j; sum of inverse masses */
-    real4 full[TOUCH];            /* full i - full j */
+    int n;                              /* contacts so far, TOUCH at most */
+    struct candidates c;                /* the same, as shapes see them */
+    int to[TOUCH];                      /* place of the record; -1 - index of a wall */
+    unsigned char *live[TOUCH];         /* of the slot */
+    real *memory[TOUCH];                /* of the slot */
+    coordinate4 d[TOUCH];               /* place i - place j */
+    real4 v[TOUCH];                     /* vel i - vel j; sum of inverse masses */
+    real4 full[TOUCH];                  /* full i - full j */
     real4 spin_i[TOUCH], spin_j[TOUCH]; /* with the radii */
-    int pair[TOUCH];              /* pair of materials */
+    int pair[TOUCH];                    /* pair of materials */
     struct touch t;
     struct levers l;
     real history[HISTORY_MAX][TOUCH];
-    real4 row[3][TOUCH];          /* force, torques on i and j, on their way out */
+    real4 row[3][TOUCH]; /* force, torques on i and j, on their way out */
 };
 
 /* Works the block: shape, laws, memory. Adds forces to own[i - first], to the records, to the

@@ -72,7 +72,8 @@ static int index_along(const struct search_class *l, const struct domain *d, dou
 static int home_of(const struct search *c, const struct sim *s, int i)
 {
     const vec3 x = s->grains.pos[i];
-    const struct search_class *const l = &c->class[c->class_of[halvings(c, s->grains.radius[i])]];
+    const struct search_class *const l =
+        &c->class[c->class_of[halvings(c, s->grains.radius[i])]];
     return l->first + index_along(l, &s->domain, x.x, 0) +
            l->n[0] * (index_along(l, &s->domain, x.y, 1) +
                       l->n[1] * index_along(l, &s->domain, x.z, 2));
@@ -156,7 +157,8 @@ void search_free(struct search *c)
 }
 
 /* Neighbouring cells along an axis, each once; returns how many. */
-static int around(const struct search_class *l, const struct domain *d, int i, int a, int out[3])
+static int around(const struct search_class *l, const struct domain *d, int i, int a,
+                  int out[3])
 {
     int n = 0;
     for (int o = -1; o <= 1; o++) {
@@ -206,8 +208,7 @@ int search_pairs(const struct search *c, const struct sim *s, double margin, int
             for (int j = 0; j < count[1]; j++)
                 for (int h = 0; h < count[0]; h++) {
                     const int home =
-                        l->first + near[0][h] +
-                        l->n[0] * (near[1][j] + l->n[1] * near[2][k]);
+                        l->first + near[0][h] + l->n[0] * (near[1][j] + l->n[1] * near[2][k]);
                     const int from = c->begin[home], to = c->begin[home + 1];
                     if (n + to - from + 1 > *room) {
                         const int more = 2 * (n + to - from) + 1024;

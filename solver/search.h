@@ -14,7 +14,7 @@ struct sim;
 enum { SEARCH_CLASSES = 12 };
 
 struct search_class {
-    double widest;  /* m, largest radius */
+    double widest; /* m, largest radius */
     int n_grains;
     int n[3];       /* cells */
     double edge[3]; /* m */
