@@ -1,5 +1,4 @@
-/* drag/brown_lawler.c - Brown and Lawler's sphere, fitted to 480 measurements [BrownLawler03,
- * eq. 19].
+/* drag/brown_lawler.c - Brown and Lawler's sphere [BrownLawler03].
  *
  *   C_D  = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re)
  *   Fhat = C_D Re/24

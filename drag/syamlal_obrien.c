@@ -24,7 +24,7 @@ const struct about drag_about = {
     .source = "[SyamlalOBrien87]; [Dallavalle48]",
     .range = "eps 0.4 to 1, Re < 1e4"};
 const struct drag_limits drag_limits = {
-    .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .isolated = 0.96};
+    .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .jump = 0.00096, .isolated = 0.96};
 const struct key drag_keys[] = {
     {"drag", "c", KEY_REAL, "1", "(0, inf)", "0.8",
      "Syamlal and O'Brien's factor at eps 0.85 and below; fitted to a fluidisation velocity"},

@@ -114,20 +114,47 @@ static inline struct law_jump law_jump_between(const struct law *law, double eps
     return (struct law_jump){fabs(f1 - f0) / fmax(f0, f1), eps0, re0};
 }
 
+enum { JUMP_LINES = 15, JUMP_POINTS = 20000 };
+
+static inline double law_line_at(bool along_eps, int k)
+{
+    return along_eps ? 0.3 + 0.7 * k / JUMP_POINTS : pow(10.0, -8.0 + 14.0 * k / JUMP_POINTS);
+}
+
+/* The largest jump along one line: where the change between two points is not that between
+ * their neighbours, the two close in on it. */
+static inline struct law_jump law_line_jump(const struct law *law, bool along_eps, double other,
+                                            bool in_range)
+{
+    struct law_jump worst = {0.0, 0.0, 0.0};
+    double f[3];
+    for (int k = 0; k <= JUMP_POINTS; k++) {
+        const double x = law_line_at(along_eps, k);
+        f[k % 3] = along_eps ? law_factor(law, x, other) : law_factor(law, other, x);
+        if (k < 2)
+            continue;
+        const double now = f[k % 3] - f[(k - 1) % 3], before = f[(k - 1) % 3] - f[(k - 2) % 3];
+        if (fabs(now - before) < 1e-5 * f[k % 3])
+            continue;
+        const double last = law_line_at(along_eps, k - 1);
+        const struct law_jump j = along_eps ? law_jump_between(law, last, other, x, other)
+                                            : law_jump_between(law, other, last, other, x);
+        if (j.size > worst.size && (!in_range || law_holds(law, j.eps, j.re)))
+            worst = j;
+    }
+    return worst;
+}
+
 /* The largest jump for eps from 0.3 to 1, Re from 1e-8 to 1e6, or of that where the law holds. */
 static inline struct law_jump law_largest_jump(const struct law *law, bool in_range)
 {
     struct law_jump worst = {0.0, 0.0, 0.0};
-    for (int i = 0; i < 100; i++)
-        for (int j = 0; j < 140; j++) {
-            const double eps = 0.3 + 0.007 * i, next = fmin(eps + 0.007, 1.0);
-            const double re = pow(10.0, -8.0 + 0.1 * j), more = re * pow(10.0, 0.1);
-            const struct law_jump one = law_jump_between(law, eps, re, eps, more);
-            const struct law_jump two = law_jump_between(law, eps, re, next, re);
-            if (one.size > worst.size && (!in_range || law_holds(law, one.eps, one.re)))
-                worst = one;
-            if (two.size > worst.size && (!in_range || law_holds(law, two.eps, two.re)))
-                worst = two;
+    for (int i = 0; i < JUMP_LINES; i++)
+        for (int along = 0; along < 2; along++) {
+            const double re = pow(10.0, i - 8.0), eps = 0.3 + 0.0499 * i;
+            const struct law_jump j = law_line_jump(law, along, along ? re : eps, in_range);
+            if (j.size > worst.size)
+                worst = j;
         }
     return worst;
 }
