@@ -15,7 +15,7 @@ usage() {
 ./run.sh check SCENE [section.key=value ...]
                          the feasibility report: every limit as a ratio; runs nothing
 ./run.sh plot DIR        the pictures of a run again
-./run.sh modules         every answer of every slot: equation, source, range, keys
+./run.sh modules [SLOT]  every answer of every slot (of one): equation, source, range, keys
 ./run.sh keys            every key of a scene: unit, range, default, meaning
 ./run.sh install         install the Debian packages that are missing
 ./run.sh help            this text
@@ -186,10 +186,11 @@ case ${1:-} in
         install_packages
         ;;
     modules | keys)
-        [ $# -eq 1 ] || refuse "usage: ./run.sh $1"
+        [ $# -eq 1 ] || { [ "$1" = modules ] && [ $# -eq 2 ]; } ||
+            refuse "usage: ./run.sh modules [SLOT], ./run.sh keys"
         install_packages
         build "$bin/front" answers
-        "$bin/front" "$1"
+        "$bin/front" "$@"
         ;;
     plot)
         [ $# -eq 2 ] || refuse "usage: ./run.sh plot DIR"

@@ -68,10 +68,9 @@ static double d10(const struct sim *s)
     const int n = s->grains.n;
     double *const volume = xalloc((size_t)n + 1, sizeof *volume), total = 0.0, sum = 0.0;
     int i = 0;
-    memcpy(volume, s->grains.volume, (size_t)n * sizeof *volume);
-    qsort(volume, (size_t)n, sizeof *volume, by_size);
     for (int k = 0; k < n; k++)
-        total += volume[k];
+        total += volume[k] = s->grains.volume[k];
+    qsort(volume, (size_t)n, sizeof *volume, by_size);
     while (i < n - 1 && (sum += volume[i]) < 0.1 * total)
         i++;
     const double d = n > 0 ? cbrt(6.0 / 3.14159265358979323846 * volume[i]) : 1.0;
@@ -83,16 +82,11 @@ void drag_grains_create(struct sim *s)
 {
     struct drag_grains *const g = &s->coupling.drag_of;
     const double effective = d10(s);
-    double least = (double)INFINITY, most = 0.0;
     for (int k = 0; k < s->grains.n_species; k++) {
         g->kind[k].d10 = effective;
         drag_prepare(&g->kind[k]);
     }
-    for (int i = 0; i < s->grains.n; i++) {
-        least = fmin(least, s->grains.volume[i]);
-        most = fmax(most, s->grains.volume[i]);
-    }
-    if (drag_limits.sauter && most > least * (1.0 + 1e-12))
+    if (drag_limits.sauter)
         g->sauter = grid_field(&s->grid);
 }
 

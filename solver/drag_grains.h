@@ -2,8 +2,8 @@
  *
  * One struct drag_grain per species: its shape (of a sphere all numbers are 1; keys of [grains]
  * give others), density ratio, D10. The mean diameter of the grains around a grain is Sauter's,
- * of its cell: d_32 = sum w V / sum (w V/d), with the shares w; kept only where sizes differ and
- * the law of the run asks for it. */
+ * of its cell: d_32 = sum w V / sum (w V/d), with the shares w; kept only where the law of
+ * the run asks for it. */
 #ifndef DRAG_GRAINS_H
 #define DRAG_GRAINS_H
 
@@ -14,7 +14,7 @@ struct drag_grain;
 
 struct drag_grains {
     struct drag_grain *kind; /* per species, prepared */
-    double *sauter;          /* m per cell; NULL: all grains of a cell count as equal */
+    double *sauter;          /* m per cell; NULL: not asked for */
     int outside;             /* grains outside the law's range, at the last fluid step */
     bool told;               /* the warning is out */
 };

@@ -1,8 +1,10 @@
 /* tools/front.c - what run.sh asks before there is a binary for the scene.
- *   front slots SCENE [section.key=value ...]   the answers that the scene asks for, as make
- * variables front modules | front keys                  every answer / every key, from the
- * answers themselves Run from the project's folder. A scene that names what does not exist is
- * refused here (exit 2). */
+ *   front slots SCENE [section.key=value ...]   the answers that the scene asks for, as variables
+ *                                               of make
+ *   front modules [SLOT]                        every answer (of one slot), from the answers
+ *   front keys                                  every key, likewise
+ * Run from the project's folder. A scene that names what does not exist is refused here (exit
+ * 2). */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <libgen.h>
@@ -20,20 +22,25 @@
 #include "../solver/walls.h"
 
 struct folder {
-    const char *slot, *variable, *path, *standard;
+    const char *slot, *variable, *path, *standard, *question;
 };
 
 static const struct folder folders[] = {
-    {"shape", "SHAPE", "shapes", "sphere"},
-    {"contact", "CONTACT", "contact", "none"},
-    {"rolling", "ROLLING", "contact/rolling", "none"},
-    {"bond", "BOND", "contact/bond", "none"},
-    {"cohesion", "COHESION", "contact/cohesion", "none"},
-    {"drag", "DRAG", "drag", "none"},
-    {"porosity", "POROSITY", "porosity", "none"},
-    {"fluid", "FLUID", "solver/fluid", "none"},
-    {"reference", "REFERENCE", "reference", "none"},
+    {"shape", "SHAPE", "shapes", "sphere", "what is a grain?"},
+    {"contact", "CONTACT", "contact", "none", "what force when grains touch?"},
+    {"rolling", "ROLLING", "contact/rolling", "none", "what resists their rolling?"},
+    {"bond", "BOND", "contact/bond", "none", "what holds them when they are glued?"},
+    {"cohesion", "COHESION", "contact/cohesion", "none",
+     "what pulls when they are wet or sticky?"},
+    {"drag", "DRAG", "drag", "none", "what resists the flow?"},
+    {"porosity", "POROSITY", "porosity", "none", "what does the grid see of a grain?"},
+    {"fluid", "FLUID", "solver/fluid", "none", "what flows?"},
+    {"reference", "REFERENCE", "reference", "none", "what should come out?"},
 };
+
+/* A scene may name several of these. */
+static const struct folder forces = {"forces", "FORCES", "forces", "none",
+                                     "what else does the fluid do to a grain?"};
 
 enum { FOLDERS = sizeof folders / sizeof folders[0] };
 
@@ -172,18 +179,88 @@ static void visit_answers(const char *program,
     xfree(copy);
 }
 
+enum { WIDTH = 96, INDENT = 18 };
+
+/* The text after its title, broken between words. */
+static void print_wrapped(int margin, const char *title, const char *text)
+{
+    int column = printf("%*s%-*s ", margin, "", INDENT - margin - 1, title);
+    bool first = true;
+    while (*text) {
+        const int word = (int)strcspn(text, " ");
+        if (!first && column + 1 + word > WIDTH) {
+            column = printf("\n%*s", INDENT, "") - 1;
+            first = true;
+        }
+        column += printf("%s%.*s", first ? "" : " ", word, text);
+        first = false;
+        text += word;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
+/* The keys of a table, with unit (none for 1), and what they are without being given. */
+static void print_module_keys(const struct key *keys)
+{
+    char *text = xstrdup("");
+    for (const struct key *k = keys; k->section; k++) {
+        const bool unit = k->unit[0] && strcmp(k->unit, "1") != 0;
+        char *const longer =
+            xprintf("%s%s%s.%s%s%s%s", text, k == keys ? "" : ", ", k->section, k->name,
+                    unit ? " [" : "", unit ? k->unit : "", unit ? "]" : "");
+        xfree(text);
+        text = longer;
+    }
+    print_wrapped(6, "keys", text);
+    xfree(text);
+}
+
+static const char *only_slot; /* of `front modules`; NULL: all */
+
 static void print_module(const char *slot, const struct about *a, const struct key *keys)
 {
-    printf("%s = %s\n    %s\n", slot, a->name, a->summary);
+    static const struct folder *last;
+    const struct folder *f = &forces;
+    if (only_slot && strcmp(only_slot, slot) != 0)
+        return;
+    for (int i = 0; i < FOLDERS; i++)
+        if (strcmp(folders[i].slot, slot) == 0)
+            f = &folders[i];
+    if (f != last)
+        printf("%s%s: %s  (%s/, default %s)\n", last ? "\n" : "", f->slot, f->question, f->path,
+               f->standard);
+    last = f;
+    const bool fits = strlen(a->name) + 4 < INDENT;
+    printf(fits ? "\n" : "\n  %s\n", a->name);
+    print_wrapped(2, fits ? a->name : "", a->summary);
     if (a->equation[0])
-        printf("    equation  %s\n", a->equation);
+        print_wrapped(6, "equation", a->equation);
     if (a->source[0])
-        printf("    source    %s\n", a->source);
+        print_wrapped(6, "source", a->source);
     if (a->range[0])
-        printf("    range     %s\n", a->range);
-    for (const struct key *k = keys; k->section; k++)
-        printf("%s%s.%s", k == keys ? "    keys      " : ", ", k->section, k->name);
-    printf("%s\n", keys->section ? "\n" : "");
+        print_wrapped(6, "range", a->range);
+    if (keys->section)
+        print_module_keys(keys);
+}
+
+static int print_modules(const char *program, const char *slot)
+{
+    bool known = !slot || strcmp(slot, forces.slot) == 0;
+    for (int f = 0; f < FOLDERS; f++)
+        known = known || strcmp(slot, folders[f].slot) == 0;
+    if (!known) {
+        fprintf(stderr, "silt: no such slot: %s; there are", slot);
+        for (int f = 0; f < FOLDERS; f++)
+            fprintf(stderr, " %s,", folders[f].slot);
+        fprintf(stderr, " %s\n", forces.slot);
+        return EXIT_SCENE;
+    }
+    only_slot = slot;
+    visit_answers(program, print_module);
+    printf("\nIn a scene: [modules], slot = answer. Symbols and sources: NOTATION.md; keys: "
+           "./run.sh keys.\n");
+    return EXIT_GOOD;
 }
 
 static void print_answer_keys(const char *slot, const struct about *a, const struct key *keys)
@@ -211,12 +288,11 @@ int main(int argc, char **argv)
 {
     if (argc >= 3 && strcmp(argv[1], "slots") == 0)
         return print_slots(argc - 2, argv + 2);
-    if (argc == 2 && strcmp(argv[1], "modules") == 0) {
-        visit_answers(argv[0], print_module);
-        return EXIT_GOOD;
-    }
+    if ((argc == 2 || argc == 3) && strcmp(argv[1], "modules") == 0)
+        return print_modules(argv[0], argv[2]);
     if (argc == 2 && strcmp(argv[1], "keys") == 0)
         return print_keys(argv[0]);
-    fprintf(stderr, "usage: front slots SCENE [section.key=value ...] | modules | keys\n");
+    fprintf(stderr,
+            "usage: front slots SCENE [section.key=value ...] | modules [SLOT] | keys\n");
     return EXIT_SCENE;
 }

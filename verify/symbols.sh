@@ -79,6 +79,12 @@ if [ -x run.sh ]; then
     [ "$listed" -ge 1 ]
     check $? "run.sh modules lists it"
 fi
+for folder in contact drag porosity; do # slots that have their folder's name
+    files=$(cd "$folder" && echo *.c | sed 's/\.c//g')
+    listed=$(./run.sh modules "$folder" 2> /dev/null | grep -E '^  [a-z]' | awk '{ print $1 }' | xargs)
+    [ "$listed" = "$files" ]
+    check $? "run.sh modules $folder lists the files of $folder/"
+done
 added=$(diff <(echo "$before") <(state) | grep '^[<>]' | grep -v "drag/$name.c")
 [ -z "$added" ]
 check $? "nothing else in the tree has changed${added:+: $added}"
