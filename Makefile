@@ -114,6 +114,12 @@ $(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB) \
 	$(CC) $(LDFLAGS) -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call answers_of,bench/$*)) \
 	  $(LIB) $(LIBS)
 
+# This one calls every answer there is, see verify/answers.h.
+$(BUILD)/bench/answers: $(BUILD)/obj/bench/answers.o $(LIB) $(FIRST) $(SHARED)
+	@mkdir -p $(@D)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) \
+	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
+
 $(BUILD)/provenance.h: FORCE
 	@mkdir -p $(@D)
 	@{ printf '#define SILT_REVISION "%s"\n' "$$(git describe --always --dirty 2>/dev/null || echo unknown)"; \

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
-make -s build/release/front build/release/bench/kernels
+make -s -j"$(nproc)" build/release/front build/release/bench/kernels build/release/bench/answers
 slots=$(build/release/front slots scenes/packed_bed.ini)
 make -s -j"$(nproc)" $slots silt
 binary=$(make -s $slots where)
@@ -30,3 +30,4 @@ done
 for j in 1 $(nproc); do
     OMP_NUM_THREADS=$j build/release/bench/kernels
 done
+OMP_NUM_THREADS=1 build/release/bench/answers
