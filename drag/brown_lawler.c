@@ -7,7 +7,7 @@
  * For a bed or a suspension take a law that has one. */
 #include "drag.h"
 
-#include <math.h>
+#include "formulas.h"
 
 const struct about drag_about = {.name = "brown_lawler",
                                  .summary = "Brown and Lawler's isolated sphere",
@@ -32,5 +32,5 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double re = p->re;
-    return 1.0 + 0.15 * pow(re, 0.681) + 0.407 / 24.0 * re * re / (re + 8710.0);
+    return 1.0 + 0.15 * power(re, 0.681) + 0.407 / 24.0 * re * re / (re + 8710.0);
 }

@@ -31,6 +31,8 @@ void drag_prepare(struct drag_grain *grain)
 
 double drag_factor(const struct drag_point *p)
 {
-    const double re = p->re, power = pow(re, 1.16);
-    return 1.0 + 0.15 * pow(re, 0.687) + 0.42 / 24.0 * re * power / (power + 42500.0);
+    if (!(p->re > 0.0))
+        return 1.0;
+    const double re = p->re, log_re = log(re), slow = exp(-1.16 * log_re);
+    return 1.0 + 0.15 * exp(0.687 * log_re) + 0.42 / 24.0 * re / (1.0 + 42500.0 * slow);
 }

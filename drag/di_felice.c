@@ -41,5 +41,5 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double chi = 3.7 - 0.65 * sphere_intermediate(p->re);
-    return sphere_dallavalle(p->re) * pow(p->eps, -chi);
+    return sphere_dallavalle(p->re) * voidage(p->eps, chi);
 }

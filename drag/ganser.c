@@ -13,7 +13,7 @@
  * For a bed or a suspension take a law that has one. */
 #include "drag.h"
 
-#include <math.h>
+#include "formulas.h"
 
 enum { K1, K1_K2 };
 
@@ -44,5 +44,5 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double k1 = p->grain->own[K1], x = p->re * p->grain->own[K1_K2];
-    return (1.0 + 0.1118 * pow(x, 0.6567) + 0.4305 / 24.0 * x * x / (x + 3305.0)) / k1;
+    return (1.0 + 0.1118 * power(x, 0.6567) + 0.4305 / 24.0 * x * x / (x + 3305.0)) / k1;
 }

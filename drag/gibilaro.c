@@ -6,7 +6,7 @@
  * An isolated creeping sphere feels 17.3/18 = 0.961 of Stokes' drag. */
 #include "drag.h"
 
-#include <math.h>
+#include "formulas.h"
 
 const struct about drag_about = {.name = "gibilaro",
                                  .summary = "Gibilaro's law of fluidised beds",
@@ -29,5 +29,5 @@ void drag_prepare(struct drag_grain *grain)
 
 double drag_factor(const struct drag_point *p)
 {
-    return (17.3 + 0.336 * p->re) / 18.0 * pow(p->eps, -3.8);
+    return (17.3 + 0.336 * p->re) / 18.0 * voidage(p->eps, 3.8);
 }

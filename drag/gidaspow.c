@@ -36,5 +36,5 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     return p->eps <= 0.8 ? packed_ergun(p->eps, p->re)
-                         : sphere_schiller_naumann(p->re) * pow(p->eps, -3.65);
+                         : sphere_schiller_naumann(p->re) * voidage(p->eps, 3.65);
 }

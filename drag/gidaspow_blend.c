@@ -36,6 +36,6 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double w = 0.5 + atan(150.0 * 1.75 * (p->eps - 0.8)) / 3.14159265358979323846;
-    return w * sphere_schiller_naumann(p->re) * pow(p->eps, -3.65) +
+    return w * sphere_schiller_naumann(p->re) * voidage(p->eps, 3.65) +
            (1.0 - w) * packed_ergun(p->eps, p->re);
 }

@@ -14,7 +14,7 @@
  * For a bed or a suspension take a law that has one. */
 #include "drag.h"
 
-#include <math.h>
+#include "formulas.h"
 
 enum { A, B, C, D };
 
@@ -46,5 +46,5 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double *const own = p->grain->own, re = p->re;
-    return 1.0 + own[A] * pow(re, own[B]) + own[C] / 24.0 * re * re / (re + own[D]);
+    return 1.0 + own[A] * power(re, own[B]) + own[C] / 24.0 * re * re / (re + own[D]);
 }

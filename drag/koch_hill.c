@@ -23,18 +23,29 @@
 
 #include <math.h>
 
-/* F0 and F2, which differ in three numbers */
-static double creeping(double phi, double a, double b, double c)
+/* What F0 and F2 have in common. */
+struct creeping {
+    double top;   /* numerator without a phi */
+    double dense; /* 10 phi/eps^3 */
+    double w;     /* of that */
+};
+
+static struct creeping common(double phi, double eps3)
 {
-    const double eps = 1.0 - phi, dense = 10.0 * phi / (eps * eps * eps);
+    const double dense = 10.0 * phi / eps3;
     if (phi >= 0.4)
-        return dense;
+        return (struct creeping){1.0, dense, 1.0};
     if (!(phi > 0.0))
-        return 1.0;
-    const double w = exp(-10.0 * (0.4 - phi) / phi);
-    return (1.0 - w) * (1.0 + 3.0 * sqrt(0.5 * phi) + 135.0 / 64.0 * phi * log(phi) + a * phi) /
+        return (struct creeping){1.0, dense, 0.0};
+    return (struct creeping){1.0 + 3.0 * sqrt(0.5 * phi) + 135.0 / 64.0 * phi * log(phi), dense,
+                             exp(10.0 - 4.0 / phi)};
+}
+
+static double creeping(const struct creeping *x, double phi, double a, double b, double c)
+{
+    return (1.0 - x->w) * (x->top + a * phi) /
                (1.0 + 0.681 * phi - b * phi * phi + c * phi * phi * phi) +
-           w * dense;
+           x->w * x->dense;
 }
 
 const struct about drag_about = {
@@ -60,12 +71,13 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double eps = p->eps, phi = 1.0 - eps, r = 0.5 * p->re, eps3 = eps * eps * eps;
+    const struct creeping x = common(phi, eps3);
     const double f3 = phi < 0.0953 ? 0.9351 * phi + 0.03667
                                    : 0.0673 + 0.212 * phi + 0.0232 / (eps3 * eps * eps);
-    const double f2 = creeping(phi, 17.89, 11.03, 15.41);
+    const double f2 = creeping(&x, phi, 17.89, 11.03, 15.41);
     if (phi <= 0.01)
         return eps * (r * (3.0 / 8.0 - f3) <= f2 - 1.0 ? 1.0 + 3.0 / 8.0 * r : f2 + f3 * r);
-    const double f0 = creeping(phi, 17.14, 8.48, 8.16);
+    const double f0 = creeping(&x, phi, 17.14, 8.48, 8.16);
     const double f1 = phi <= 0.1 ? sqrt(2.0 / phi) / 40.0 : 0.11 + 5.1e-4 * exp(11.6 * phi);
     const double root = sqrt(f3 * f3 - 4.0 * f1 * (f0 - f2));
     return eps * (2.0 * f1 * r <= f3 + root ? f0 + f1 * r * r : f2 + f3 * r);

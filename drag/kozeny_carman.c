@@ -19,6 +19,7 @@
 
 static const double phi_least = 0.01;
 static double constant = 180.0, eps_cap = 0.7;
+static double beyond; /* (C/18) (1-eps_cap)^2/eps_cap^3 */
 
 const struct about drag_about = {
     .name = "kozeny_carman",
@@ -39,6 +40,8 @@ void drag_init(struct scene *s)
 {
     constant = scene_real(s, "drag", NULL, "constant");
     eps_cap = scene_real(s, "drag", NULL, "eps_cap");
+    beyond =
+        constant / 18.0 * (1.0 - eps_cap) * (1.0 - eps_cap) / (eps_cap * eps_cap * eps_cap);
 }
 
 void drag_prepare(struct drag_grain *grain)
@@ -51,7 +54,5 @@ double drag_factor(const struct drag_point *p)
     const double eps = p->eps;
     if (eps <= eps_cap)
         return packed_kozeny_carman(eps, constant);
-    const double phi_cap = 1.0 - eps_cap;
-    return constant / 18.0 * eps * phi_cap * phi_cap /
-           (fmax(1.0 - eps, phi_least) * eps_cap * eps_cap * eps_cap);
+    return beyond * eps / fmax(1.0 - eps, phi_least);
 }

@@ -14,7 +14,7 @@
 
 #include "formulas.h"
 
-enum { D10 };
+enum { INVERSE };
 static double constant = 150.0, given; /* m; 0: not given */
 
 const struct about drag_about = {.name = "kozeny_carman_d10",
@@ -40,11 +40,11 @@ void drag_init(struct scene *s)
 
 void drag_prepare(struct drag_grain *grain)
 {
-    grain->own[D10] = given > 0.0 ? given : grain->d10;
+    grain->own[INVERSE] = 1.0 / (given > 0.0 ? given : grain->d10);
 }
 
 double drag_factor(const struct drag_point *p)
 {
-    const double ratio = p->d / p->grain->own[D10];
+    const double ratio = p->d * p->grain->own[INVERSE];
     return packed_kozeny_carman(p->eps, constant) * ratio * ratio;
 }

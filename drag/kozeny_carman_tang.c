@@ -15,6 +15,7 @@
 
 #include "formulas.h"
 
+enum { INVERSE };
 static double constant = 180.0; /* 36 C_S T^2 */
 
 const struct about drag_about = {
@@ -43,11 +44,11 @@ void drag_init(struct scene *s)
 
 void drag_prepare(struct drag_grain *grain)
 {
-    (void)grain;
+    grain->own[INVERSE] = 1.0 / grain->sphericity;
 }
 
 double drag_factor(const struct drag_point *p)
 {
-    const double ratio = p->y / p->grain->sphericity;
+    const double ratio = p->y * p->grain->own[INVERSE];
     return packed_kozeny_carman(p->eps, constant) * ratio * ratio;
 }

@@ -36,5 +36,5 @@ double drag_factor(const struct drag_point *p)
     const double eps = p->eps;
     const double b =
         2.65 * (eps + 1.0) - (5.3 - 3.5 * eps) * eps * eps * sphere_intermediate(p->re);
-    return sphere_dallavalle(p->re) * pow(eps, -b);
+    return sphere_dallavalle(p->re) * voidage(eps, b);
 }

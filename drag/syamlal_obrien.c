@@ -45,7 +45,7 @@ void drag_prepare(struct drag_grain *grain)
 double drag_factor(const struct drag_point *p)
 {
     const double eps = p->eps, re = p->re / eps;
-    const double a = pow(eps, 4.14), b = eps <= 0.85 ? c * pow(eps, 1.28) : pow(eps, q);
+    const double a = power(eps, 4.14), b = eps <= 0.85 ? c * power(eps, 1.28) : power(eps, q);
     const double half = a - 0.06 * re, product = 0.24 * re * b;
     const double root = sqrt(half * half + product);
     const double v = half > 0.0 ? 0.5 * (half + root) : 0.5 * product / (root - half);

@@ -31,6 +31,8 @@ void drag_prepare(struct drag_grain *grain)
 
 double drag_factor(const struct drag_point *p)
 {
-    const double re = p->re, power = pow(re, 1.09);
-    return 1.0 + 0.173 * pow(re, 0.657) + 0.413 / 24.0 * re * power / (power + 16300.0);
+    if (!(p->re > 0.0))
+        return 1.0;
+    const double re = p->re, log_re = log(re), slow = exp(-1.09 * log_re);
+    return 1.0 + 0.173 * exp(0.657 * log_re) + 0.413 / 24.0 * re / (1.0 + 16300.0 * slow);
 }

@@ -41,9 +41,10 @@ void drag_prepare(struct drag_grain *grain)
 
 double drag_factor(const struct drag_point *p)
 {
-    const double re = fmin(fmax(p->re, 0.1), 1000.0), log_re = log(re);
+    const double log_re = log(fmin(fmax(p->re, 0.1), 1000.0));
     const double theta = 0.641 * exp(0.153 * log_re);
     const double chi = 3.7 - 0.65 * sphere_intermediate(p->re);
-    const double shape = exp(-theta * p->grain->own[LOG_PSI] - 0.01 * log_re);
-    return 0.945 * shape * sphere_dallavalle(p->re) * pow(p->eps, -chi);
+    const double shape =
+        exp(-theta * p->grain->own[LOG_PSI] - 0.01 * log_re - chi * log(p->eps));
+    return 0.945 * shape * sphere_dallavalle(p->re);
 }

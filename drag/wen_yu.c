@@ -32,5 +32,5 @@ void drag_prepare(struct drag_grain *grain)
 
 double drag_factor(const struct drag_point *p)
 {
-    return sphere_schiller_naumann(p->re) * pow(p->eps, -3.65);
+    return sphere_schiller_naumann(p->re) * voidage(p->eps, 3.65);
 }

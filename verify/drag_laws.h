@@ -14,7 +14,7 @@ struct law {
     void (*prepare)(struct drag_grain *grain);
     const struct key *keys;
     const struct about *about;
-    const struct drag_limits *limits;
+    struct drag_limits limits; /* a copy, which outlives the loaded answer */
     struct drag_grain grain;
     double y;
 };
@@ -30,23 +30,29 @@ static inline bool law_load(struct law *law, const char *name, void *answer)
                                   .density_ratio = 2.65,
                                   .d10 = 0.737e-3}};
     snprintf(law->name, sizeof law->name, "%s", name);
-    return answers_symbol(answer, "drag_factor", &law->factor, sizeof law->factor) &&
-           answers_symbol(answer, "drag_init", &law->init, sizeof law->init) &&
-           answers_symbol(answer, "drag_prepare", &law->prepare, sizeof law->prepare) &&
-           answers_symbol(answer, "drag_keys", &law->keys, sizeof law->keys) &&
-           answers_symbol(answer, "drag_about", &law->about, sizeof law->about) &&
-           answers_symbol(answer, "drag_limits", &law->limits, sizeof law->limits);
+    const struct drag_limits *limits = NULL;
+    const bool good =
+        answers_symbol(answer, "drag_factor", &law->factor, sizeof law->factor) &&
+        answers_symbol(answer, "drag_init", &law->init, sizeof law->init) &&
+        answers_symbol(answer, "drag_prepare", &law->prepare, sizeof law->prepare) &&
+        answers_symbol(answer, "drag_keys", &law->keys, sizeof law->keys) &&
+        answers_symbol(answer, "drag_about", &law->about, sizeof law->about) &&
+        answers_symbol(answer, "drag_limits", &limits, sizeof limits);
+    if (good)
+        law->limits = *limits;
+    return good;
 }
 
 /* Reads the law's keys, with their standard values or the overrides; keys that must be given and
- * are not get a permeability (the one kind that there is). */
+ * are not get a permeability (the one kind that there is): Carman's at eps = 0.4. */
 static inline void law_init(struct law *law, int n, char **overrides)
 {
     char *all[16];
     int m = 0;
     for (const struct key *k = law->keys; k->section; k++)
         if (!k->standard)
-            all[m++] = xprintf("%s.%s=%s %s", k->section, k->name, "1e-9", k->unit);
+            all[m++] = xprintf("%s.%s=%.17g %s", k->section, k->name,
+                               0.064 * law_d * law_d / (180.0 * 0.36), k->unit);
     const int added = m;
     for (int i = 0; i < n; i++)
         all[m++] = overrides[i]; /* later ones win */
@@ -84,7 +90,7 @@ static inline double law_permeability(const struct law *law, double eps, double 
 
 static inline bool law_holds(const struct law *law, double eps, double re)
 {
-    const struct drag_limits *const l = law->limits;
+    const struct drag_limits *const l = &law->limits;
     return eps >= l->eps_min && eps <= l->eps_max &&
            re <= (l->per_solid ? l->re_max * (1.0 - eps) : l->re_max);
 }

@@ -2,7 +2,8 @@
  *
  * Against published formulas: factors at 13 points per law (reference/drag_points.csv), of the
  * isolated sphere (drag_isolated.csv) and of isolated grains that are none
- * (drag_nonspherical.csv), to half a unit of the tables' tenth digit; permeabilities as the
+ * (drag_nonspherical.csv), to half a unit of the tables' tenth digit; Brown and Lawler's
+ * settling curve (brown_lawler.csv); permeabilities as the
  * review's Table 3 writes them. Against the contract, for every answer there is: finite and
  * positive for any eps in (0, 1] and any Re, force rising with the slip, the limit of an
  * isolated sphere that it states; its largest jump is printed, and in its range is no larger
@@ -140,17 +141,17 @@ static void test_monotone(const struct law *law)
 static void test_continuous(const struct law *law)
 {
     const struct law_jump all = law_largest_jump(law, false), in = law_largest_jump(law, true);
-    check(in.size <= 1.001 * law->limits->jump + 1e-4,
+    check(in.size <= 1.001 * law->limits.jump + 1e-4,
           "%s: largest jump in its range %.2e (eps %.4f, Re %.4g), stated %.2e; anywhere %.2e "
           "(eps %.4f, Re %.4g)",
-          law->name, in.size, in.eps, in.re, law->limits->jump, all.size, all.eps, all.re);
+          law->name, in.size, in.eps, in.re, law->limits.jump, all.size, all.eps, all.re);
 }
 
 static void test_isolated(const struct law *law)
 {
-    const double limit = law->limits->isolated;
+    const double limit = law->limits.isolated;
     if (!(limit > 0.0)) {
-        check(law->limits->eps_max < 1.0, "%s: no isolated sphere, and its range says so",
+        check(law->limits.eps_max < 1.0, "%s: no isolated sphere, and its range says so",
               law->name);
         return;
     }
@@ -162,7 +163,7 @@ static void test_isolated(const struct law *law)
 
 static void test_limits(const struct law *law)
 {
-    const struct drag_limits *const l = law->limits;
+    const struct drag_limits *const l = &law->limits;
     check(l->eps_min >= 0.0 && l->eps_min < l->eps_max && l->eps_max <= 1.0 &&
               l->re_max > 0.0 && law->about->range[0] != '\0',
           "%s: range %s", law->name, law->about->range);
@@ -176,12 +177,12 @@ static void test_law(const struct law *law)
     test_monotone(law);
     test_continuous(law);
     test_isolated(law);
-    if (law->limits->shape) {
+    if (law->limits.shape) {
         const struct law flake = law_shaped(law, 0.637, 0.423);
         test_positive(&flake);
         test_monotone(&flake);
     }
-    if (law->limits->sauter) {
+    if (law->limits.sauter) {
         struct law small = *law;
         small.y = 0.237;
         test_positive(&small);
@@ -279,6 +280,25 @@ static void test_beetstra(const struct law *law)
               "the mixture's creeping drag is that of its mean size");
 }
 
+/* Their settling curve, to the eight digits of its table: Fhat Re = Ar/18. */
+static void test_brown_lawler(const struct law *law)
+{
+    FILE *const f = fopen("verify/reference/brown_lawler.csv", "r");
+    char line[512];
+    double ar, re, worst = 0.0;
+    int points = 0;
+    if (!check(f != NULL, "their settling curve opens"))
+        return;
+    while (fgets(line, sizeof line, f))
+        if (sscanf(line, "%*f,%lf,%lf", &ar, &re) == 2) {
+            worst = fmax(worst, fabs(18.0 * re * law_factor(law, 1.0, re) / ar - 1.0));
+            points++;
+        }
+    fclose(f);
+    check(points == 21 && worst < 1e-7, "%d points of their settling curve, largest error %.1e",
+          points, worst);
+}
+
 static void test_tang(const struct law *law)
 {
     char on[] = "drag.mobility=on";
@@ -301,6 +321,7 @@ static const struct {
                  {"kozeny_carman_tang", test_kozeny_carman_tang},
                  {"ergun", test_ergun},
                  {"beetstra", test_beetstra},
+                 {"brown_lawler", test_brown_lawler},
                  {"tang", test_tang}};
 
 static void visit(const char *name, void *answer)

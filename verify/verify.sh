@@ -3,6 +3,7 @@
 # build/verify.txt. Takes some minutes.
 #   the shipped scenes against their references
 #   a bed of uniform porosity: the drag law's pressure drop, two laws, two solvers
+#   every law of drag: its terminal velocity, its error against measured ones, its picture
 #   one sphere, two-way: what it disturbs of its own cell, against cell/d and porosity answer
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
@@ -59,6 +60,12 @@ value() {
         done
         echo
     done
+    echo
+    echo "Every law of drag with an isolated sphere comes to its own terminal velocity, one-way"
+    verify/drag_settling.sh || bad=1
+    echo
+    echo "Terminal velocity by every law against Brown and Lawler; pictures docs/drag_*.png"
+    verify/drag_figures.sh || echo "  FAIL"
 } 2>&1 | tee "$report"
 grep -q FAIL "$report" && bad=1
 exit $bad
