@@ -39,8 +39,8 @@ static const struct folder folders[] = {
 };
 
 /* A scene may name several of these. */
-static const struct folder forces = {"forces", "FORCES", "forces", "none",
-                                     "what else does the fluid do to a grain?"};
+static const struct folder force_folder = {"forces", "FORCES", "forces", "none",
+                                           "what else does the fluid do to a grain?"};
 
 enum { FOLDERS = sizeof folders / sizeof folders[0] };
 
@@ -221,7 +221,7 @@ static const char *only_slot; /* of `front modules`; NULL: all */
 static void print_module(const char *slot, const struct about *a, const struct key *keys)
 {
     static const struct folder *last;
-    const struct folder *f = &forces;
+    const struct folder *f = &force_folder;
     if (only_slot && strcmp(only_slot, slot) != 0)
         return;
     for (int i = 0; i < FOLDERS; i++)
@@ -246,14 +246,14 @@ static void print_module(const char *slot, const struct about *a, const struct k
 
 static int print_modules(const char *program, const char *slot)
 {
-    bool known = !slot || strcmp(slot, forces.slot) == 0;
+    bool known = !slot || strcmp(slot, force_folder.slot) == 0;
     for (int f = 0; f < FOLDERS; f++)
         known = known || strcmp(slot, folders[f].slot) == 0;
     if (!known) {
         fprintf(stderr, "silt: no such slot: %s; there are", slot);
         for (int f = 0; f < FOLDERS; f++)
             fprintf(stderr, " %s,", folders[f].slot);
-        fprintf(stderr, " %s\n", forces.slot);
+        fprintf(stderr, " %s\n", force_folder.slot);
         return EXIT_SCENE;
     }
     only_slot = slot;
