@@ -19,10 +19,10 @@ static const double crossover = 40.0; /* the review's: one law is best below, an
 
 struct figure_law {
     struct law law;
-    double re[RE];             /* terminal, at the Ar of each point */
+    double re[RE]; /* terminal, at the Ar of each point */
     double factor[PANELS][EPS];
-    int settles_as, flows_as; /* first law with the same curve */
-    double below, above;      /* mean |u/u_BL - 1| */
+    int settles_as, flows_as;  /* first law with the same curve */
+    double below, above;       /* mean |u/u_BL - 1| */
     double below_in, above_in; /* where the law holds; NAN if nowhere */
     double own_cell[CELLS][2]; /* below, above, in a cell of that porosity */
 };
@@ -115,8 +115,9 @@ static void visit(const char *name, void *answer)
     law_init(&f->law, 0, NULL);
     for (int i = 0; i < RE; i++) {
         const double re = reference_re[i] = point_re(i);
-        f->re[i] = f->law.limits.isolated > 0.0 ? terminal_re(&f->law, 1.0, re * brown_lawler(re))
-                                                 : (double)NAN;
+        f->re[i] = f->law.limits.isolated > 0.0
+                       ? terminal_re(&f->law, 1.0, re * brown_lawler(re))
+                       : (double)NAN;
     }
     mean_errors(f);
     own_cell_errors(f);
@@ -234,8 +235,10 @@ static void print_part(double error)
 
 static void print_own_cell(const struct figure_law *const *sorted, int n)
 {
-    printf("\n  mean |error|, %%, below and above Re = 40, of one sphere in a cell of porosity\n"
-           "  %-24s", "");
+    printf(
+        "\n  mean |error|, %%, below and above Re = 40, of one sphere in a cell of porosity\n"
+        "  %-24s",
+        "");
     for (int k = 0; k < CELLS; k++)
         printf(" %13g", cell_eps[k]);
     putchar('\n');
