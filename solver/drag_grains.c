@@ -98,15 +98,14 @@ void drag_grains_free(struct sim *s)
 
 void drag_grains_sauter(struct sim *s, const double *volume)
 {
-    const struct coupling *const c = &s->coupling;
+    struct coupling *const c = &s->coupling;
     double *const out = c->drag_of.sauter;
     if (!out)
         return;
-    double *const area = c->values; /* m2 per grain, V/d */
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < s->grains.n; i++)
-        area[i] = s->grains.volume[i] / drag_grains_diameter(s, i);
-    spread_one(&c->spread, area, out);
+        c->values[(size_t)i * SPREAD_STRIDE] = s->grains.volume[i] / drag_grains_diameter(s, i);
+    spread_columns(&c->spread, NULL, c->values, 1, &c->drag_of.sauter);
     if (c->diffuse)
         diffuse_apply(c->diffuse, out);
 #pragma omp parallel for schedule(static)

@@ -26,7 +26,7 @@ void drag_grains_create(struct sim *s);                    /* once grid and grai
 void drag_grains_free(struct sim *s);
 
 double drag_grains_diameter(const struct sim *s, int i); /* m, volume-equivalent */
-/* From the shares at hand, and the volume of the grains per cell. */
+/* From the shares at hand, and the volume of the grains per cell (diffused as these are). */
 void drag_grains_sauter(struct sim *s, const double *volume);
 void drag_grains_warn(struct sim *s);   /* on stderr, the first time that a grain is outside */
 void drag_grains_report(struct sim *s); /* to the summary */

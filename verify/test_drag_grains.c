@@ -34,7 +34,7 @@ static void test_mixture(void)
     for (int id = 0; id < 2; id++) {
         const double d = id ? fine : coarse;
         const int i = grain_at(s, id);
-        check_rel(c->kappa[(size_t)i * (size_t)c->reach],
+        check_rel(c->part[(size_t)i * (size_t)c->reach],
                   3.0 * PI * mu * d * eps * d / mean *
                       (10.0 * phi / (eps * eps) + eps * eps * (1.0 + 1.5 * sqrt(phi))),
                   1e-12, "drag of a fluid at rest over slip, mixed sizes, kg/s");
