@@ -98,12 +98,13 @@ static void scatter_rows(const struct poisson *p, const pack *x, REAL factor, lo
         }
 }
 
-/* Modes of LINES rows between the packs and the work. */
+/* Modes of LINES rows between the packs and the work. The padding is zero at each solve: two packs
+ * share a transform, whose round-off would otherwise grow in it from solve to solve and leak back. */
 static void modes_to_work(const struct poisson *p, const pack *x, long first, long last)
 {
     const struct transform *const t = p->t[0];
     for (int g = 0; g < 2; g++)
-        for (int m0 = 0; m0 < p->n[0]; m0 += LANES) {
+        for (int m0 = 0; m0 < p->width[SINGLE]; m0 += LANES) {
             pack block[LANES];
             for (int l = 0; l < LANES; l++)
                 block[l] = m0 + l < p->n[0] ? x[(m0 + l) * t->step + g * t->group] : (pack){0};
