@@ -1,6 +1,7 @@
-/* bed_file.c - reads positions and diameters of grains, from text or from a run.nc. */
+/* bed_file.c - reads a bed of grains, from text or from netCDF. */
 #include "bed_file.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <netcdf.h>
 #include <stdbool.h>
@@ -25,13 +26,22 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
 {
     char line[512];
     int capacity = 0;
+    bool header = false;
     for (int number = 1; fgets(line, sizeof line, file); number++) {
         vec3 x;
         double d;
         char rest;
         line[strcspn(line, "#\r\n")] = '\0';
-        if (line[strspn(line, " \t")] == '\0')
+        const char *const text = line + strspn(line, " \t");
+        if (*text == '\0')
             continue;
+        if (b->n == 0 && !header && strchr(line, ',') && isalpha((unsigned char)*text)) {
+            header = true; /* names of the columns of a table in CSV */
+            continue;
+        }
+        for (char *c = line; *c; c++)
+            if (*c == ',' || *c == ';')
+                *c = ' ';
         const int got = sscanf(line, "%lf %lf %lf %lf %c", &x.x, &x.y, &x.z, &d, &rest);
         if (got != 4 || !isfinite(x.x + x.y + x.z + d) || !(d > 0.0))
             return xprintf("%s:%d: must hold x y z diameter in m, \"%.40s\" does not", path,
@@ -41,31 +51,123 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
     return b->n > 0 ? NULL : xprintf("%s: holds no grain", path);
 }
 
+/* Variable `name` of the grains, at the last time if it has times: `per` values a grain. NULL if
+ * the file has none, or not in this form. */
+static double *read_variable(int nc, const char *name, size_t n, size_t per)
+{
+    int var, dims = 0, dim[NC_MAX_VAR_DIMS], time = -1;
+    size_t start[3] = {0}, count[3] = {0}, times = 0;
+    nc_inq_dimid(nc, "time", &time);
+    if (nc_inq_varid(nc, name, &var) || nc_inq_var(nc, var, NULL, NULL, &dims, dim, NULL))
+        return NULL;
+    const int first = dims > 0 && dim[0] == time, want = first + (per > 1 ? 2 : 1);
+    if (dims != want || (first && (nc_inq_dimlen(nc, time, &times) || times == 0)))
+        return NULL;
+    start[0] = first ? times - 1 : 0;
+    count[0] = 1;
+    count[first] = n;
+    if (per > 1)
+        count[first + 1] = per;
+    double *const x = xalloc(n * per + 1, sizeof *x);
+    if (nc_get_vara_double(nc, var, start, count, x) == NC_NOERR)
+        return x;
+    xfree(x);
+    return NULL;
+}
+
+static vec3 *read_vectors(int nc, const char *name, size_t n)
+{
+    double *const x = read_variable(nc, name, n, 3);
+    vec3 *const v = x ? xalloc(n, sizeof *v) : NULL;
+    for (size_t i = 0; x && i < n; i++)
+        v[i] = v3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+    xfree(x);
+    return v;
+}
+
+static void read_species(struct bed_file *b, int nc)
+{
+    int var;
+    size_t length = 0;
+    double *const kind = read_variable(nc, "grain_species", (size_t)b->n, 1);
+    if (!kind || nc_inq_varid(nc, "grain_species", &var) ||
+        nc_inq_attlen(nc, var, "flag_meanings", &length)) {
+        xfree(kind);
+        return;
+    }
+    char *const names = xalloc(length + 1, 1);
+    nc_get_att_text(nc, var, "flag_meanings", names);
+    for (char *at = names; *at;) {
+        const size_t word = strcspn(at, " ");
+        b->species = xrealloc(b->species, (size_t)b->n_species, (size_t)b->n_species + 1,
+                              sizeof *b->species);
+        b->species[b->n_species++] = xprintf("%.*s", (int)word, at);
+        at += word + strspn(at + word, " ");
+    }
+    b->kind = xalloc((size_t)b->n, sizeof *b->kind);
+    for (int i = 0; i < b->n; i++)
+        b->kind[i] = (int)kind[i];
+    xfree(names);
+    xfree(kind);
+}
+
+/* Grains of the last output: all of the dimension, or as many as the file says. */
+static size_t count_grains(int nc)
+{
+    int dim, var;
+    size_t n = 0, times = 0;
+    if (nc_inq_dimid(nc, "grain", &dim) || nc_inq_dimlen(nc, dim, &n))
+        return 0;
+    if (nc_inq_varid(nc, "grain_count", &var) == NC_NOERR && !nc_inq_dimid(nc, "time", &dim) &&
+        !nc_inq_dimlen(nc, dim, &times) && times > 0) {
+        const size_t last = times - 1;
+        int count = 0;
+        if (nc_get_var1_int(nc, var, &last, &count) == NC_NOERR && count >= 0 &&
+            (size_t)count <= n)
+            return (size_t)count;
+    }
+    return n;
+}
+
 static char *read_netcdf(struct bed_file *b, const char *path)
 {
-    int nc, var, radius, dim_grain, dim_time;
-    size_t n = 0, times = 0;
+    int nc;
     if (nc_open(path, NC_NOWRITE, &nc) != NC_NOERR)
         return xprintf("%s: is not a readable netCDF file", path);
     char *why = NULL;
-    if (nc_inq_dimid(nc, "grain", &dim_grain) || nc_inq_dimlen(nc, dim_grain, &n) ||
-        nc_inq_dimid(nc, "time", &dim_time) || nc_inq_dimlen(nc, dim_time, &times) || n == 0 ||
-        times == 0 || nc_inq_varid(nc, "position", &var) ||
-        nc_inq_varid(nc, "radius", &radius)) {
-        why = xprintf("%s: holds no grains as a run.nc does", path);
+    const size_t n = count_grains(nc);
+    b->pos = n > 0 ? read_vectors(nc, "position", n) : NULL;
+    b->diameter = n > 0 ? read_variable(nc, "radius", n, 1) : NULL;
+    if (!b->pos || !b->diameter) {
+        why = xprintf("%s: holds no grains as a bed.nc or run.nc does", path);
     } else {
         b->n = (int)n;
-        b->pos = xalloc(n, sizeof *b->pos);
-        b->diameter = xalloc(n, sizeof *b->diameter);
-        const size_t start[3] = {times - 1, 0, 0}, count[3] = {1, n, 3};
-        if (nc_get_vara_double(nc, var, start, count, &b->pos[0].x) ||
-            nc_get_var_double(nc, radius, b->diameter))
-            why = xprintf("%s: its grains cannot be read", path);
         for (size_t i = 0; i < n; i++)
             b->diameter[i] *= 2.0;
+        b->vel = read_vectors(nc, "velocity", n);
+        b->spin = read_vectors(nc, "spin", n);
+        if (!b->vel || !b->spin) {
+            xfree(b->vel);
+            xfree(b->spin);
+            b->vel = b->spin = NULL;
+        }
+        read_species(b, nc);
     }
     nc_close(nc);
     return why;
+}
+
+char *bed_file_path(const char *path, const char *scene_path)
+{
+    const char *const slash = scene_path ? strrchr(scene_path, '/') : NULL;
+    char *const beside = slash && path[0] != '/'
+                             ? xprintf("%.*s/%s", (int)(slash - scene_path), scene_path, path)
+                             : xstrdup(path);
+    struct stat info;
+    if (stat(beside, &info) == 0)
+        return beside;
+    xfree(beside);
+    return xstrdup(path);
 }
 
 char *bed_file_read(struct bed_file *b, const char *path, const char *scene_path)
@@ -73,15 +175,8 @@ char *bed_file_read(struct bed_file *b, const char *path, const char *scene_path
     *b = (struct bed_file){0};
     if (path[0] == '\0')
         return xstrdup("must name a file, for fill = file");
-    const char *const slash = scene_path ? strrchr(scene_path, '/') : NULL;
-    char *beside = slash && path[0] != '/'
-                       ? xprintf("%.*s/%s", (int)(slash - scene_path), scene_path, path)
-                       : xstrdup(path);
+    char *const beside = bed_file_path(path, scene_path);
     struct stat info;
-    if (stat(beside, &info) != 0) {
-        xfree(beside);
-        beside = xstrdup(path);
-    }
     char *why = NULL;
     FILE *const file = fopen(beside, "r");
     if (!file || stat(beside, &info) != 0 || !S_ISREG(info.st_mode)) {
@@ -104,7 +199,10 @@ char *bed_file_read(struct bed_file *b, const char *path, const char *scene_path
 
 void bed_file_free(struct bed_file *b)
 {
-    xfree(b->pos);
-    xfree(b->diameter);
+    for (int k = 0; k < b->n_species; k++)
+        xfree(b->species[k]);
+    void *const all[] = {b->pos, b->diameter, b->vel, b->spin, b->kind, b->species};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
     *b = (struct bed_file){0};
 }

@@ -1,128 +1,38 @@
-/* fill.c - placing grains: lattice, random without overlap, unit cells, a point, a file.
+/* fill.c - placing the grains: how many of which sizes, and where.
  *
- * Random filling is random sequential addition: centres are drawn uniformly and kept if they
- * overlap nothing. It jams at a solid fraction of 0.384 [Zhang13]; up to RANDOM_MOST it is
- * quick. `settle` is a random filling of the lower part of the region at SETTLE_LOOSE, which
- * then falls (settle.c). */
+ * At random: grains are added one by one, the largest first, where they overlap nothing (random
+ * sequential addition, which jams at a solid fraction of 0.384 for equal spheres [Zhang13]); a
+ * grain that finds no room in a few tries is put down all the same, and then all are pushed apart
+ * (fill_relax.c), which reaches about 0.6. `settle` is a random filling of the lower part of the
+ * region at SETTLE_LOOSE, which then falls (settle.c). */
 #include "fill.h"
 
 #include <gsl/gsl_rng.h>
-#include <string.h>
-#include "bed_file.h"
+#include <stdlib.h>
+#include "fill_patterns.h"
 #include "sim.h"
 
 #define PI           3.14159265358979323846
-#define RANDOM_MOST  0.34
+#define LATTICE_MOST 0.5236 /* simple cubic */
+#define RANDOM_MOST  0.64
+#define SIZES_MOST   0.80 /* of differing sizes, the small in the gaps of the large */
 #define SETTLE_LOOSE 0.28
+#define SWELL        0.01
 
 enum { LATTICE, RANDOM, SETTLE, UNIT_CELL, POINT, FROM_FILE };
+enum { TRIES = 10, COUNT_MOST = 100000000 };
 
-/* The grains placed so far, with a search grid over the box. */
-struct bed {
-    const struct domain *domain;
-    int n, capacity;
-    struct placed *grain;
-    int cells[3];
-    int *first, *next; /* chains of grains per search cell, -1 ends */
-    double edge[3];
-    double largest; /* m, diameter */
-};
-
-static void bed_open(struct bed *b, const struct domain *d, double largest)
+static struct fill_region region_read(struct sim *s, struct scene *scene, const char *name,
+                                      double widest)
 {
-    *b = (struct bed){.domain = d, .largest = largest};
-    size_t total = 1;
-    for (int a = 0; a < 3; a++) {
-        b->cells[a] = (int)fmin(fmax(1.0, floor(d->size[a] / largest)), 400.0);
-        b->edge[a] = d->size[a] / b->cells[a];
-        total *= (size_t)b->cells[a];
-    }
-    b->first = xalloc(total, sizeof *b->first);
-    for (size_t c = 0; c < total; c++)
-        b->first[c] = -1;
-}
-
-static int bed_index(const struct bed *b, double x, int axis)
-{
-    const int i = (int)floor(x / b->edge[axis]);
-    return i < 0 ? 0 : i >= b->cells[axis] ? b->cells[axis] - 1 : i;
-}
-
-static int bed_cell(const struct bed *b, const int i[3])
-{
-    return i[0] + b->cells[0] * (i[1] + b->cells[1] * i[2]);
-}
-
-static void bed_add(struct bed *b, struct placed p)
-{
-    if (b->n == b->capacity) {
-        const int capacity = b->capacity ? 2 * b->capacity : 1024;
-        b->grain = xrealloc(b->grain, (size_t)b->capacity, (size_t)capacity, sizeof *b->grain);
-        b->next = xrealloc(b->next, (size_t)b->capacity, (size_t)capacity, sizeof *b->next);
-        b->capacity = capacity;
-    }
-    const int at[3] = {bed_index(b, p.pos.x, 0), bed_index(b, p.pos.y, 1),
-                       bed_index(b, p.pos.z, 2)};
-    const int c = bed_cell(b, at);
-    b->next[b->n] = b->first[c];
-    b->first[c] = b->n;
-    b->grain[b->n++] = p;
-}
-
-/* Neighbouring search cells of index i along an axis, each once; returns how many. */
-static int bed_around(const struct bed *b, int i, int axis, int out[3])
-{
-    int n = 0;
-    for (int o = -1; o <= 1; o++) {
-        int k = i + o;
-        if (b->domain->periodic[axis])
-            k = (k + b->cells[axis]) % b->cells[axis];
-        bool seen = k < 0 || k >= b->cells[axis];
-        for (int m = 0; m < n; m++)
-            seen = seen || out[m] == k;
-        if (!seen)
-            out[n++] = k;
-    }
-    return n;
-}
-
-/* Largest overlap of a sphere with those placed, as part of the smaller diameter. */
-static double bed_overlap(const struct bed *b, vec3 x, double diameter)
-{
-    int near[3][3], n[3];
-    const double at[3] = {x.x, x.y, x.z};
-    for (int a = 0; a < 3; a++)
-        n[a] = bed_around(b, bed_index(b, at[a], a), a, near[a]);
-    double worst = 0.0;
-    for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
-        const int k[3] = {near[0][i % n[0]], near[1][i / n[0] % n[1]],
-                          near[2][i / (n[0] * n[1])]};
-        for (int m = b->first[bed_cell(b, k)]; m >= 0; m = b->next[m]) {
-            const double apart = 0.5 * (diameter + b->grain[m].diameter);
-            const double r =
-                v3_norm(domain_minimum_image(b->domain, v3_sub(x, b->grain[m].pos)));
-            worst = fmax(worst, (apart - r) / fmin(diameter, b->grain[m].diameter));
-        }
-    }
-    return worst;
-}
-
-/* The part of the box in which a species is placed, for the centres. */
-struct region {
-    double from[3], to[3]; /* m, as asked */
-    double lo[3], hi[3];   /* m, for centres: a radius inside along walls of the box */
-};
-
-static struct region region_read(struct sim *s, struct scene *scene, const char *name, double d)
-{
-    struct region r;
+    struct fill_region r;
     const vec3 from = scene_vector(scene, "grains", name, "from");
     const vec3 to = scene_vector(scene, "grains", name, "to");
     const bool lower = !scene_word(scene, "grains", name, "from", "box");
     const bool upper = !scene_word(scene, "grains", name, "to", "box");
     const double f[3] = {from.x, from.y, from.z}, t[3] = {to.x, to.y, to.z};
     for (int a = 0; a < 3; a++) {
-        const double size = s->domain.size[a], radius = 0.5 * d;
+        const double size = s->domain.size[a];
         r.from[a] = lower ? f[a] : 0.0;
         r.to[a] = upper ? t[a] : size;
         if (r.from[a] < 0.0 || r.to[a] > size * (1.0 + 1e-12) || !(r.from[a] < r.to[a]))
@@ -131,207 +41,231 @@ static struct region region_read(struct sim *s, struct scene *scene, const char 
                         : lower ? "from"
                                 : NULL,
                         "the region must lie inside the box, from below to");
-        const bool open = s->domain.periodic[a];
-        r.lo[a] = open && !lower ? r.from[a] : r.from[a] + radius;
-        r.hi[a] = open && !upper ? r.to[a] : r.to[a] - radius;
-        if (r.lo[a] > r.hi[a])
+        r.open[a] = s->domain.periodic[a] && r.from[a] == 0.0 && r.to[a] == size;
+        if (!r.open[a] && r.to[a] - r.from[a] < widest)
             scene_error(scene, "grains", name, "diameter", "is wider than the region (%g m)",
                         r.to[a] - r.from[a]);
     }
     return r;
 }
 
-static double region_volume(const struct region *r)
+static double sphere(double d)
 {
-    return (r->to[0] - r->from[0]) * (r->to[1] - r->from[1]) * (r->to[2] - r->from[2]);
+    return PI / 6.0 * d * d * d;
 }
 
-/* True, or an error on the list, if `count` spheres are at most `most` of the region. */
-static bool fits(struct scene *scene, const char *name, const struct region *r, int count,
-                 double d, double most, const char *why)
+/* The key that says how many: count, mass or porosity. */
+static const char *amount_key(struct scene *scene, const char *name)
 {
-    const double solid = count * PI / 6.0 * d * d * d / region_volume(r);
+    const bool mass = !scene_word(scene, "grains", name, "mass", "auto");
+    const bool porosity = !scene_word(scene, "grains", name, "porosity", "auto");
+    const bool count = scene_given(scene, "grains", name, "count");
+    if (mass + porosity + count > 1)
+        scene_error(scene, "grains", name, porosity ? "porosity" : "mass",
+                    "give one of count, mass and porosity");
+    return porosity ? "porosity" : mass ? "mass" : "count";
+}
+
+/* The diameters of the grains asked for: to the last grain of a count, to half a grain of a mass
+ * or of a volume of solid. */
+static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key)
+{
+    const double density = s->grains.species[t->species].density;
+    double solid = (double)INFINITY, sum = 0.0;
+    double most = COUNT_MOST;
+    if (key[0] == 'c')
+        most = scene_int(t->scene, "grains", t->name, "count");
+    else if (key[0] == 'm')
+        solid = scene_real(t->scene, "grains", t->name, "mass") / density;
+    else
+        solid = (1.0 - scene_real(t->scene, "grains", t->name, "porosity")) *
+                region_volume(&t->region);
+    const double expected = fmin(most, solid / (PI / 6.0 * t->sizes->mean_cube));
+    if (expected > 0.999 * COUNT_MOST) {
+        scene_error(t->scene, "grains", t->name, key, "are about %.3g grains; at most %d",
+                    expected, COUNT_MOST);
+        return;
+    }
+    int capacity = (int)(1.1 * expected) + 16;
+    t->diameter = xalloc((size_t)capacity, sizeof *t->diameter);
+    for (long k = 0; k < (long)most; k++) {
+        const double d = sizes_draw(t->sizes, t->seed, t->species, k);
+        if (sum + 0.5 * sphere(d) > solid)
+            break;
+        if (t->n == capacity) {
+            t->diameter = xrealloc(t->diameter, (size_t)capacity, 2 * (size_t)capacity,
+                                   sizeof *t->diameter);
+            capacity *= 2;
+        }
+        t->diameter[t->n++] = d;
+        sum += sphere(d);
+    }
+    if (t->n == 0 && most > 0.0)
+        scene_error(t->scene, "grains", t->name, key, "is less than half a grain of %g m",
+                    sizes_draw(t->sizes, t->seed, t->species, 0));
+}
+
+/* Solid fraction that the task asks of its region. */
+static double solid_fraction(const struct fill_task *t)
+{
+    double sum = 0.0;
+    for (int i = 0; i < t->n; i++)
+        sum += sphere(t->diameter[i]);
+    return sum / region_volume(&t->region);
+}
+
+/* True, or an error on the list, if the grains are at most `most` of the region. */
+static bool fits(const struct fill_task *t, const char *key, double most, const char *why)
+{
+    const double solid = solid_fraction(t);
     if (solid <= most)
         return true;
-    scene_error(scene, "grains", name, "count",
+    scene_error(t->scene, "grains", t->name, key,
                 "the grains fill %.3g %% of their region; at most %.3g %% %s", 100.0 * solid,
                 100.0 * most, why);
     return false;
 }
 
-static void fill_lattice(struct bed *b, struct scene *scene, const char *name, int species,
-                         const struct region *r, int count, double d)
-{
-    const double spacing = scene_word(scene, "grains", name, "spacing", "auto")
-                               ? 1.05 * d
-                               : scene_real(scene, "grains", name, "spacing");
-    int n[3];
-    for (int a = 0; a < 3; a++) {
-        n[a] = (int)floor((r->hi[a] - r->lo[a]) / spacing * (1.0 + 1e-12)) + 1;
-        if (b->domain->periodic[a] && n[a] > 1 && /* the last must not meet the first's image */
-            r->lo[a] + n[a] * spacing > r->hi[a] + d * 1e-9 &&
-            r->hi[a] - r->lo[a] > 0.999 * b->domain->size[a])
-            n[a] = (int)floor((r->hi[a] - r->lo[a]) / spacing * (1.0 + 1e-12));
-        n[a] = n[a] < 1 ? 1 : n[a];
-    }
-    if ((double)n[0] * n[1] * n[2] < count) {
-        scene_error(scene, "grains", name, "count",
-                    "a lattice of %g m has room for %.0f grains", spacing,
-                    (double)n[0] * n[1] * n[2]);
-        return;
-    }
-    for (int i = 0; i < count; i++) {
-        const vec3 x =
-            v3(r->lo[0] + spacing * (i % n[0]), r->lo[1] + spacing * (i / n[0] % n[1]),
-               r->lo[2] + spacing * (i / (n[0] * n[1])));
-        bed_add(b, (struct placed){x, d, species});
-    }
-}
-
-static void fill_random(struct bed *b, struct scene *scene, const char *name, int species,
-                        const struct region *r, int count, double d, gsl_rng *rng)
-{
-    const long tries = 200L * count + 100000L;
-    long tried = 0;
-    for (int i = 0; i < count; i++) {
-        vec3 x;
-        do {
-            if (tried++ > tries * 50) {
-                scene_error(scene, "grains", name, "count",
-                            "only %d grains found room without overlap", i);
-                return;
-            }
-            x = v3(r->lo[0] + (r->hi[0] - r->lo[0]) * gsl_rng_uniform(rng),
-                   r->lo[1] + (r->hi[1] - r->lo[1]) * gsl_rng_uniform(rng),
-                   r->lo[2] + (r->hi[2] - r->lo[2]) * gsl_rng_uniform(rng));
-        } while (bed_overlap(b, x, d) > 0.0);
-        bed_add(b, (struct placed){x, d, species});
-    }
-}
-
-/* Positions in the unit cell, in parts of its edge; the edge at which neighbours touch. */
-struct unit_cell {
-    int n;
-    double at[4][3], touching;
+/* One grain of a random filling. */
+struct drawn {
+    double diameter;
+    int task, order;
 };
 
-static const struct unit_cell unit_cells[] = {
-    {1, {{0.5, 0.5, 0.5}}, 1.0},
-    {2, {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}}, 1.1547005383792515},
-    {4,
-     {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}},
-     1.4142135623730951},
-};
-
-static void fill_unit_cell(struct bed *b, struct scene *scene, const char *name, int species,
-                           const struct region *r, double d)
+static int largest_first(const void *a, const void *b)
 {
-    const struct unit_cell *const u = &unit_cells[scene_choice(scene, "grains", name, "cell")];
-    const bool given = !scene_word(scene, "grains", name, "spacing", "auto");
-    const double edge = given ? scene_real(scene, "grains", name, "spacing") : u->touching * d;
-    int n[3];
-    for (int a = 0; a < 3; a++) {
-        const double cells = (r->to[a] - r->from[a]) / edge;
-        n[a] = (int)floor(cells + 1e-6);
-        if (n[a] < 1 || (b->domain->periodic[a] && fabs(cells - n[a]) > 1e-6))
-            scene_error(scene, "grains", name, "spacing",
-                        "the region holds %.6g unit cells of %g m in %c; it must hold %s",
-                        cells, edge, 'x' + a,
-                        n[a] < 1 ? "one at least" : "a whole number of them");
-    }
-    if (scene_errors(scene) > 0)
-        return;
-    for (int i = 0; i < n[0] * n[1] * n[2]; i++)
-        for (int m = 0; m < u->n; m++) {
-            const vec3 x = v3(r->from[0] + edge * (i % n[0] + u->at[m][0]),
-                              r->from[1] + edge * (i / n[0] % n[1] + u->at[m][1]),
-                              r->from[2] + edge * (i / (n[0] * n[1]) + u->at[m][2]));
-            bed_add(b, (struct placed){x, d, species});
-        }
+    const struct drawn *const x = a, *const y = b;
+    if (x->diameter != y->diameter)
+        return x->diameter > y->diameter ? -1 : 1;
+    return x->order - y->order;
 }
 
-static void fill_point(struct bed *b, struct scene *scene, const char *name, int species,
-                       const struct region *r, int count, double d)
+static vec3 somewhere(const struct fill_region *r, double radius, gsl_rng *rng)
 {
-    vec3 x = scene_vector(scene, "grains", name, "position");
-    if (scene_word(scene, "grains", name, "position", "centre"))
-        x = v3(0.5 * (r->from[0] + r->to[0]), 0.5 * (r->from[1] + r->to[1]),
-               0.5 * (r->from[2] + r->to[2]));
-    const double at[3] = {x.x, x.y, x.z};
+    double lo[3], hi[3], x[3];
+    region_bounds(r, radius, lo, hi);
     for (int a = 0; a < 3; a++)
-        if (at[a] < r->from[a] || at[a] > r->to[a])
-            scene_error(scene, "grains", name, "position", "must lie inside the region");
-    if (count != 1)
-        scene_error(scene, "grains", name, "count", "fill = point places one grain");
-    bed_add(b, (struct placed){x, d, species});
+        x[a] = lo[a] + (hi[a] - lo[a]) * gsl_rng_uniform(rng);
+    return v3(x[0], x[1], x[2]);
 }
 
-static void fill_from_file(struct bed *b, struct scene *scene, const char *name, int species)
+/* Puts down the grains, largest first; returns the largest overlap that was left. */
+static double put_down(struct fill_grid *b, const struct drawn *drawn, int n,
+                       const struct fill_task *task, gsl_rng *rng)
 {
-    const char *const file = scene_text(scene, "grains", name, "file");
-    struct bed_file bed;
-    char *const why = bed_file_read(&bed, file, scene_path(scene));
-    if (why) {
-        scene_error(scene, "grains", name, "file", "%s", why);
-        xfree(why);
-        return;
+    double worst = 0.0;
+    for (int i = 0; i < n; i++) {
+        const struct fill_task *const t = &task[drawn[i].task];
+        const double d = drawn[i].diameter;
+        vec3 x = v3(0.0, 0.0, 0.0);
+        double overlap = 1.0;
+        for (int k = 0; k < TRIES && overlap > 0.0; k++) {
+            x = somewhere(&t->region, 0.5 * d, rng);
+            overlap = fill_grid_overlap(b, x, d, 0.0);
+        }
+        worst = fmax(worst, overlap);
+        fill_grid_add(b, (struct placed){x, d, t->species});
     }
-    for (int i = 0; i < bed.n; i++) {
-        const vec3 x = domain_wrap(b->domain, bed.pos[i]);
-        const double at[3] = {x.x, x.y, x.z};
-        for (int a = 0; a < 3; a++)
-            if (at[a] < 0.0 || at[a] > b->domain->size[a]) {
-                scene_error(scene, "grains", name, "file",
-                            "grain %d at %g %g %g m is outside "
-                            "the box",
-                            i + 1, x.x, x.y, x.z);
-                i = bed.n - 1;
-                break;
-            }
-        bed_add(b, (struct placed){x, bed.diameter[i], species});
-    }
-    bed_file_free(&bed);
+    return worst;
 }
 
-static void fill_species(struct sim *s, struct scene *scene, const char *name, int species,
-                         struct bed *b, gsl_rng *rng)
+/* Pushes the grains apart, with room to spare first, or with less of it. */
+static double push_apart(struct fill_grid *b, int first, const struct fill_region *regions)
 {
-    const double d = s->grains.species[species].diameter;
-    const int count = s->grains.species[species].count;
-    const int how = scene_choice(scene, "grains", name, "fill");
-    struct region r = region_read(s, scene, name, d);
-    if (scene_errors(scene) > 0)
+    struct relaxed r = {.overlap = 1.0};
+    for (double swell = SWELL; swell > 5e-4 && r.overlap > 0.0; swell *= 0.2)
+        r = fill_relax(
+            b, first, regions,
+            &(struct relax_goal){.swell = swell, .sweeps = swell < SWELL ? 3000 : 600});
+    return r.overlap;
+}
+
+/* All species that are placed at random, together. */
+static void fill_random(struct sim *s, struct fill_grid *b, struct fill_task *task, int n_tasks,
+                        const int *how)
+{
+    struct fill_region *const regions = xalloc((size_t)n_tasks + 1, sizeof *regions);
+    struct drawn *drawn = NULL;
+    int n = 0, first = b->n, last = -1;
+    for (int k = 0; k < n_tasks; k++) {
+        regions[k] = task[k].region;
+        if (how[k] != RANDOM && how[k] != SETTLE)
+            continue;
+        drawn = xrealloc(drawn, (size_t)n, (size_t)(n + task[k].n) + 1, sizeof *drawn);
+        for (int i = 0; i < task[k].n; i++, n++)
+            drawn[n] = (struct drawn){task[k].diameter[i], k, n};
+        last = k;
+    }
+    if (n > 0) {
+        gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
+        gsl_rng_set(rng, s->run.seed);
+        qsort(drawn, (size_t)n, sizeof *drawn, largest_first);
+        double overlap = put_down(b, drawn, n, task, rng);
+        if (overlap > 0.0)
+            overlap = push_apart(b, first, regions);
+        if (overlap > 0.0)
+            scene_error(
+                task[last].scene, "grains", task[last].name,
+                amount_key(task[last].scene, task[last].name),
+                "the grains find no room without overlap (%.2g of a diameter is left); ask "
+                "for a higher porosity or a larger region",
+                overlap);
+        gsl_rng_free(rng);
+    }
+    xfree(drawn);
+    xfree(regions);
+}
+
+/* The lower part of the region only: less far to fall. */
+static void lower_part(struct fill_task *t)
+{
+    struct fill_region *const r = &t->region;
+    const double part = fmin(1.0, solid_fraction(t) / SETTLE_LOOSE);
+    const double height = r->to[2] - r->from[2], d = t->sizes->largest;
+    const double need = fmin(height, fmax(part * height, r->open[2] ? 0.0 : 2.0 * d));
+    if (need < height)
+        r->open[2] = false;
+    r->to[2] = r->from[2] + need;
+}
+
+/* Checks one species' amount against its region. */
+static void prepare(struct sim *s, struct fill_task *t, int how)
+{
+    const char *const key = amount_key(t->scene, t->name);
+    const bool one = t->sizes->kind == SIZES_ONE;
+    if (how == UNIT_CELL || how == FROM_FILE)
         return;
+    draw_sizes(s, t, key);
+    if (how == LATTICE)
+        fits(t, key, LATTICE_MOST, "can lie on a lattice");
+    else if (how != POINT &&
+             fits(t, key, one ? RANDOM_MOST : SIZES_MOST, "find room at random") &&
+             how == SETTLE)
+        lower_part(t);
+}
+
+static void place(struct fill_grid *b, struct fill_task *t, int how, struct fill_motion *m)
+{
     switch (how) {
     case LATTICE:
-        if (fits(scene, name, &r, count, d, 0.5236, "can lie on a lattice"))
-            fill_lattice(b, scene, name, species, &r, count, d);
-        break;
-    case SETTLE:
-    case RANDOM:
-        if (!fits(scene, name, &r, count, d, RANDOM_MOST, "find room at random"))
-            break;
-        if (how == SETTLE) { /* the lower part only: less far to fall */
-            const double solid = count * PI / 6.0 * d * d * d / region_volume(&r);
-            const double part = fmin(1.0, solid / SETTLE_LOOSE);
-            r.hi[2] =
-                fmin(r.hi[2], fmax(r.from[2] + part * (r.to[2] - r.from[2]), r.lo[2] + d));
-        }
-        fill_random(b, scene, name, species, &r, count, d, rng);
+        fill_lattice(b, t);
         break;
     case UNIT_CELL:
-        fill_unit_cell(b, scene, name, species, &r, d);
+        fill_unit_cell(b, t);
         break;
     case POINT:
-        fill_point(b, scene, name, species, &r, count, d);
+        fill_point(b, t);
+        break;
+    case FROM_FILE:
+        fill_from_file(b, t, m);
         break;
     default:
-        fill_from_file(b, scene, name, species);
+        break; /* at random: all of these together, later */
     }
 }
 
 /* A grain that moves must not start inside a wall of the box. */
-static void check_walls(const struct sim *s, struct scene *scene, const struct bed *b,
+static void check_walls(const struct sim *s, struct scene *scene, const struct fill_grid *b,
                         const char *const *names)
 {
     for (int i = 0; i < b->n; i++) {
@@ -351,27 +285,53 @@ static void check_walls(const struct sim *s, struct scene *scene, const struct b
     }
 }
 
-int fill(struct sim *s, struct scene *scene, struct placed **out)
+void fill(struct sim *s, struct scene *scene, struct fill *f)
 {
-    double largest = 0.0;
-    for (int i = 0; i < s->grains.n_species; i++)
-        largest = fmax(largest, s->grains.species[i].diameter);
-    if (s->grains.n_species == 0)
-        return 0;
-    struct bed b;
-    bed_open(&b, &s->domain, largest);
-    gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
-    gsl_rng_set(rng, s->run.seed);
+    const struct grains *const g = &s->grains;
+    const int n = g->n_species;
+    struct fill_task *const task = xalloc((size_t)n + 1, sizeof *task);
+    int *const how = xalloc((size_t)n + 1, sizeof *how);
     const char *const *names;
+    double widest = 0.0, total = 0.0;
+    struct fill_grid b;
+    struct fill_motion motion = {0};
     scene_names(scene, "grains", &names);
-    for (int i = 0; i < s->grains.n_species; i++)
-        fill_species(s, scene, names[i], i, &b, rng);
-    gsl_rng_free(rng);
-    check_walls(s, scene, &b, names);
-    xfree(b.first);
-    xfree(b.next);
-    *out = b.grain;
-    return b.n;
+    *f = (struct fill){0};
+    for (int k = 0; k < n; k++) {
+        task[k] = (struct fill_task){.scene = scene, .name = names[k], .species = k};
+        task[k].sizes = &g->species[k].sizes;
+        task[k].seed = s->run.seed;
+        how[k] = scene_choice(scene, "grains", names[k], "fill");
+        task[k].region = region_read(s, scene, names[k], task[k].sizes->largest);
+        widest = fmax(widest, task[k].sizes->largest);
+    }
+    for (int k = 0; k < n && scene_errors(scene) == 0; k++) {
+        prepare(s, &task[k], how[k]);
+        total += task[k].n;
+    }
+    if (scene_errors(scene) == 0 && n > 0) {
+        fill_grid_open(&b, &s->domain, widest, (int)fmin(total, 2e8));
+        for (int k = 0; k < n; k++)
+            place(&b, &task[k], how[k], &motion);
+        if (scene_errors(scene) == 0)
+            fill_random(s, &b, task, n, how);
+        check_walls(s, scene, &b, names);
+        *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin};
+        b.grain = NULL;
+        fill_grid_close(&b);
+    }
+    for (int k = 0; k < n; k++)
+        xfree(task[k].diameter);
+    xfree(task);
+    xfree(how);
+}
+
+void fill_free(struct fill *f)
+{
+    xfree(f->grain);
+    xfree(f->vel);
+    xfree(f->spin);
+    *f = (struct fill){0};
 }
 
 bool fill_settles(struct sim *s, struct scene *scene)

@@ -12,9 +12,18 @@ struct placed {
     int species;
 };
 
-/* Places the grains of every species; returns how many, in an array to be freed with xfree.
- * What cannot be placed (no room, no file, overlap) goes on the scene's list of errors. */
-int fill(struct sim *s, struct scene *scene, struct placed **out);
+/* Grains at the start, all freed by fill_free. */
+struct fill {
+    int n;
+    struct placed *grain;
+    int n_motion;     /* the first grains, whose motion a file may give */
+    vec3 *vel, *spin; /* m/s, rad/s; vel.x is NAN where it does not */
+};
+
+/* Places the grains of every species. What cannot be placed (no room, no file, overlap) goes on
+ * the scene's list of errors. */
+void fill(struct sim *s, struct scene *scene, struct fill *f);
+void fill_free(struct fill *f);
 
 /* Whether a species asks for settling (fill = settle). */
 bool fill_settles(struct sim *s, struct scene *scene);

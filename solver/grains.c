@@ -9,10 +9,13 @@
 #define FILLS "lattice | random | settle | unit_cell | point | file"
 
 const struct key grains_keys[] = {
-    {"grains", "diameter", KEY_REAL, "m", "(0, inf)", NULL, "volume-equivalent diameter"},
     {"grains", "density", KEY_REAL, "kg m-3", "(0, inf)", NULL, "density of the solid"},
     {"grains", "count", KEY_INT, "", "[0, 100000000]", "1",
      "how many (unit_cell and file: as many as there are)"},
+    {"grains", "mass", KEY_REAL, "kg", "auto | (0, inf)", "auto",
+     "mass of all of them, in place of count: met to half a grain"},
+    {"grains", "porosity", KEY_REAL, "1", "auto | (0, 1)", "auto",
+     "porosity of their region, in place of count"},
     {"grains", "fill", KEY_CHOICE, "", FILLS, "lattice", "how the grains are placed"},
     {"grains", "frozen", KEY_CHOICE, "", "no | yes", "no", "a fixed skeleton that never moves"},
     {"grains", "material", KEY_TEXT, "", "", "",
@@ -28,8 +31,11 @@ const struct key grains_keys[] = {
     {"grains", "cell", KEY_CHOICE, "", "simple_cubic | bcc | fcc", "simple_cubic",
      "unit cell for fill = unit_cell"},
     {"grains", "file", KEY_TEXT, "", "", "",
-     "for fill = file: a run.nc of silt (its last grains), or text with x y z diameter in m a "
-     "line"},
+     "for fill = file: a bed.nc or run.nc of silt (its last grains), or text with x y z "
+     "diameter "
+     "in m a line"},
+    {"grains", "file_species", KEY_TEXT, "", "", "",
+     "the species to take from the file; default: the one of the same name"},
     {"grains", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s", "at the start"},
     {"grains", "spin", KEY_VECTOR, "rad s-1", "(-inf, inf)", "0 0 0 rad/s", "at the start"},
     {0},
@@ -64,8 +70,9 @@ static void read_species(struct sim *s, struct scene *scene)
             scene_error(scene, "grains", names[i], NULL,
                         "the name must be shorter than %d letters", NAME_LENGTH);
         snprintf(sp->name, NAME_LENGTH, "%.*s", NAME_LENGTH - 1, names[i]);
-        sp->diameter = scene_real(scene, "grains", names[i], "diameter");
-        sp->largest = sp->diameter;
+        sizes_read(&sp->sizes, scene, names[i]);
+        sp->diameter = sizes_by_mass(&sp->sizes, 0.5);
+        sp->largest = sp->sizes.largest;
         sp->density = scene_real(scene, "grains", names[i], "density");
         sp->count = scene_int(scene, "grains", names[i], "count");
         sp->frozen = scene_choice(scene, "grains", names[i], "frozen") == 1;
@@ -168,7 +175,7 @@ double grains_widest(const struct grains *g)
     return widest;
 }
 
-static void make_bodies(struct grains *g, struct scene *scene, const struct placed *placed)
+static void make_bodies(struct grains *g, struct scene *scene, const struct fill *f)
 {
     const char *const *names;
     const int species = scene_names(scene, "grains", &names);
@@ -179,7 +186,7 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct plac
         spin[k] = scene_vector(scene, "grains", names[k], "spin");
     }
     for (int i = 0; i < g->n; i++) {
-        const struct placed *const p = &placed[i];
+        const struct placed *const p = &f->grain[i];
         const struct species *const sp = &g->species[p->species];
         g->id[i] = i;
         g->kind[i] = p->species;
@@ -188,6 +195,9 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct plac
         if (sp->frozen) {
             g->inv_mass[i] = g->inv_inertia[i] = 0.0;
             g->n_frozen++;
+        } else if (i < f->n_motion && !isnan(f->vel[i].x)) {
+            g->vel[i] = f->vel[i];
+            g->spin[i] = f->spin[i];
         } else {
             g->vel[i] = velocity[p->species];
             g->spin[i] = spin[p->species];
@@ -200,24 +210,29 @@ void grains_create(struct sim *s, struct scene *scene)
 {
     struct grains *const g = &s->grains;
     scene_declare(scene, grains_keys);
+    scene_declare(scene, sizes_keys);
     read_species(s, scene);
-    struct placed *placed = NULL;
+    struct fill f = {0};
     /* Placing grains needs sound numbers: with errors on the list they stay out. */
-    const int n = scene_errors(scene) == 0 ? fill(s, scene, &placed) : 0;
+    if (scene_errors(scene) == 0)
+        fill(s, scene, &f);
+    const int n = f.n;
     allocate(g, n);
-    make_bodies(g, scene, placed);
+    make_bodies(g, scene, &f);
     g->next_id = n;
     for (int i = 0; i < g->n_species; i++)
         g->species[i].count = 0;
     for (int i = 0; i < n; i++)
         g->species[g->kind[i]].count++;
     register_fields(s);
-    xfree(placed);
+    fill_free(&f);
 }
 
 void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
+    for (int k = 0; k < g->n_species; k++)
+        sizes_free(&g->species[k].sizes);
     void *const all[] = {g->id,        g->kind,     g->pos,         g->vel,         g->spin,
                          g->force,     g->torque,   g->load,        g->load_torque, g->radius,
                          g->mass,      g->inv_mass, g->inv_inertia, g->volume,      g->species,

@@ -9,6 +9,7 @@
 #define GRAINS_H
 
 #include "domain.h"
+#include "size_distribution.h"
 
 struct sim;
 
@@ -23,7 +24,8 @@ struct species {
     int material;    /* index */
     double diameter; /* m, volume-equivalent; the median where sizes differ */
     double largest;  /* m, of its diameters */
-    double density;  /* kg/m3 */
+    struct sizes sizes;
+    double density; /* kg/m3 */
     int count;
     bool frozen; /* never moves: a fixed skeleton */
 };

@@ -276,6 +276,7 @@ static int print_keys(const char *program)
     keys_print(stdout, "\nin every scene", domain_keys);
     keys_print(stdout, "", run_keys);
     keys_print(stdout, "\ngrains", grains_keys);
+    keys_print(stdout, "", sizes_keys);
     keys_print(stdout, "\nwalls", wall_keys);
     keys_print(stdout, "\nwith a fluid", flow_keys);
     keys_print(stdout, "", coupling_keys);

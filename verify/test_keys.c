@@ -59,6 +59,7 @@ int main(int argc, char **argv)
     };
     check_table("domain", domain_keys);
     check_table("grains", grains_keys);
+    check_table("sizes", sizes_keys);
     check_table("walls", wall_keys);
     check_table("run", run_keys);
     check_table("flow", flow_keys);
