@@ -60,8 +60,8 @@ void bed_file_write(const struct sim *s)
     const int lines = provenance(line);
     for (int i = 0; i < lines; i++)
         output_text(&f, NC_GLOBAL, line[i].key, line[i].value);
-    output_check(&f,
-                 nc_put_att_double(f.nc, NC_GLOBAL, "domain_size", NC_DOUBLE, 3, s->domain.size));
+    output_check(
+        &f, nc_put_att_double(f.nc, NC_GLOBAL, "domain_size", NC_DOUBLE, 3, s->domain.size));
     output_check(&f, nc_put_att_double(f.nc, NC_GLOBAL, "time", NC_DOUBLE, 1, &s->t));
     output_check(&f, nc_def_dim(f.nc, "grain", (size_t)g->n, &dim[0]));
     output_check(&f, nc_def_dim(f.nc, "component", 3, &dim[1]));

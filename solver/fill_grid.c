@@ -145,8 +145,7 @@ int fill_grid_near(const struct fill_grid *b, int i, double gap, int *out, int m
         const struct fill_level *const v = &b->level[l];
         if (v->n == 0)
             continue;
-        const struct span s =
-            span_around(b, v, x, 0.5 * (diameter + v->largest) + gap);
+        const struct span s = span_around(b, v, x, 0.5 * (diameter + v->largest) + gap);
         for (int k = s.lo[2]; k <= s.hi[2]; k++)
             for (int j = s.lo[1]; j <= s.hi[1]; j++)
                 for (int h = s.lo[0]; h <= s.hi[0]; h++) {

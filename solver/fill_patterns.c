@@ -34,8 +34,8 @@ void fill_lattice(struct fill_grid *b, const struct fill_task *t)
         return;
     }
     for (int i = 0; i < t->n; i++)
-        fill_grid_add(b, (struct placed){lattice_point(lo, n, spacing, i), t->diameter[i],
-                                         t->species});
+        fill_grid_add(
+            b, (struct placed){lattice_point(lo, n, spacing, i), t->diameter[i], t->species});
 }
 
 /* Positions in the unit cell, in parts of its edge; the edge at which neighbours touch. */

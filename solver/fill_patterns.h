@@ -24,7 +24,8 @@ struct fill_motion {
 };
 
 /* Bounds of the centres of grains of radius r. */
-static inline void region_bounds(const struct fill_region *g, double r, double lo[3], double hi[3])
+static inline void region_bounds(const struct fill_region *g, double r, double lo[3],
+                                 double hi[3])
 {
     for (int a = 0; a < 3; a++) {
         lo[a] = g->open[a] ? g->from[a] : g->from[a] + r;

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define SKIN      0.40 /* of the least diameter, room to move before neighbours are sought anew */
-#define STEP_MOST 0.6  /* stable below sqrt 2: unit springs, inertia = their number */
+#define STEP_MOST 0.6 /* stable below sqrt 2: unit springs, inertia = their number */
 #define STEP      0.2
 #define MIX       0.1
 
@@ -95,8 +95,8 @@ static void list_block(struct relax *r, int k)
         const int found = fill_grid_near(r->bed, i, r->skin, list->near + list->n, room);
         if (found > room) {
             const int more = list->n + found + BLOCK * 16;
-            list->near = xrealloc(list->near, (size_t)list->capacity, (size_t)more,
-                                  sizeof *list->near);
+            list->near =
+                xrealloc(list->near, (size_t)list->capacity, (size_t)more, sizeof *list->near);
             list->capacity = more;
             fill_grid_near(r->bed, i, r->skin, list->near + list->n, found);
         }
@@ -273,8 +273,7 @@ struct relaxed fill_relax(struct fill_grid *b, int first, const struct fill_regi
             mix = MIX;
         }
         const double keep = uphill ? 0.0 : 1.0 - mix;
-        const double steer =
-            uphill || t.force == 0.0 ? 0.0 : mix * sqrt(t.speed / t.force);
+        const double steer = uphill || t.force == 0.0 ? 0.0 : mix * sqrt(t.speed / t.force);
 #pragma omp parallel for schedule(static)
         for (int k = 0; k < r.blocks; k++)
             move_block(&r, k, step, keep, steer);

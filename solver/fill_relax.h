@@ -15,8 +15,9 @@ struct fill_region {
 struct relax_goal {
     double swell;   /* diameters are taken this part larger, so that the real ones end apart */
     double overlap; /* of the real diameters, as part of the smaller: good enough */
-    double balance; /* largest net force over the mean force of a contact: good enough; 0: never */
-    int sweeps;     /* at most */
+    double
+        balance; /* largest net force over the mean force of a contact: good enough; 0: never */
+    int sweeps;  /* at most */
 };
 
 struct relaxed {

@@ -21,7 +21,8 @@
 
 const struct key sizes_keys[] = {
     {"grains", "diameter", KEY_REAL, "m", "auto | (0, inf)", "auto",
-     "volume-equivalent diameter; log-normal sizes: the median (uniform, table, curve: not used)"},
+     "volume-equivalent diameter; log-normal sizes: the median (uniform, table, curve: not "
+     "used)"},
     {"grains", "sizes", KEY_CHOICE, "", "one | uniform | lognormal | table | curve", "one",
      "one diameter, or a distribution; table: classes of one diameter each, curve: parts finer "
      "than each diameter (a sieve curve)"},
@@ -34,7 +35,8 @@ const struct key sizes_keys[] = {
     {"grains", "spread", KEY_REAL, "1", "auto | (1, 10]", "auto",
      "geometric standard deviation, for lognormal"},
     {"grains", "size_file", KEY_TEXT, "", "", "",
-     "for table and curve: a text file with `diameter, fraction` a line; its first line may name "
+     "for table and curve: a text file with `diameter, fraction` a line; its first line may "
+     "name "
      "the unit, as in `diameter mm, fraction`"},
     {0},
 };
@@ -80,7 +82,8 @@ static double needed(struct scene *s, const char *name, const char *key, const c
 {
     if (!scene_word(s, "grains", name, key, "auto"))
         return scene_real(s, "grains", name, key);
-    scene_error(s, "grains", name, key, "must be given%s%s", why[0] ? " for sizes = " : "", why);
+    scene_error(s, "grains", name, key, "must be given%s%s", why[0] ? " for sizes = " : "",
+                why);
     return 0.0;
 }
 
@@ -118,8 +121,8 @@ static void read_lognormal(struct sizes *z, struct scene *s, const char *name)
                       : scene_real(s, "grains", name, "diameter_max");
     if (!(z->least < z->largest)) {
         scene_error(s, "grains", name, high ? "diameter_min" : "diameter_max",
-                    "the sizes must span from diameter_min to diameter_max, %g to %g m", z->least,
-                    z->largest);
+                    "the sizes must span from diameter_min to diameter_max, %g to %g m",
+                    z->least, z->largest);
         z->largest = z->least * 1.001;
     }
     const double lo = score(z, z->least, 0.0), hi = score(z, z->largest, 0.0);
@@ -172,10 +175,12 @@ static char *read_rows(FILE *file, const char *path, int *n, double **rows)
         const double f = strtod(at, &end);
         if (at == line || end == at || end[strspn(end, " \t,;")] != '\0' || !isfinite(d * f) ||
             !(d > 0.0) || f < 0.0)
-            return xprintf("%s:%d: must hold a diameter above 0 and a fraction, \"%.40s\" does not",
-                           path, number, line);
+            return xprintf(
+                "%s:%d: must hold a diameter above 0 and a fraction, \"%.40s\" does not", path,
+                number, line);
         if (*n == capacity) {
-            *rows = xrealloc(*rows, 2 * (size_t)capacity, 2 * (size_t)capacity + 64, sizeof **rows);
+            *rows =
+                xrealloc(*rows, 2 * (size_t)capacity, 2 * (size_t)capacity + 64, sizeof **rows);
             capacity += 32;
         }
         (*rows)[2 * *n] = unit * d;

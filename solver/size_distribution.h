@@ -38,8 +38,9 @@ extern const struct key sizes_keys[]; /* of section "grains" */
 void sizes_read(struct sizes *z, struct scene *scene, const char *name);
 void sizes_free(struct sizes *z);
 
-double sizes_by_number(const struct sizes *z, double u); /* m; a part u of the grains is finer */
-double sizes_by_mass(const struct sizes *z, double q);   /* m; a part q of the mass is finer */
+double sizes_by_number(const struct sizes *z,
+                       double u);                      /* m; a part u of the grains is finer */
+double sizes_by_mass(const struct sizes *z, double q); /* m; a part q of the mass is finer */
 double sizes_draw(const struct sizes *z, unsigned long seed, int species, long k); /* m */
 
 /* m; diameter below which a part q of the mass of these n grains lies: between two diameters,

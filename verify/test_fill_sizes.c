@@ -61,8 +61,8 @@ static void check_lognormal(bool by_mass)
     struct sim *const s = filled("16 17 18 mm", keys);
     static const double part[3] = {0.1, 0.5, 0.9}, z[3] = {-1.2815515655, 0.0, 1.2815515655};
     for (int k = 0; k < 3; k++) {
-        char *const text = xprintf("log-normal by %s: D%g", by_mass ? "mass" : "number",
-                                   100.0 * part[k]);
+        char *const text =
+            xprintf("log-normal by %s: D%g", by_mass ? "mass" : "number", 100.0 * part[k]);
         /* the cut takes 0.62 % at either end: 0.8 % of ln d at the tenths */
         check_rel(measured(s, part[k], by_mass), 0.731e-3 * exp(z[k] * log(1.35)), 0.012, text);
         xfree(text);
@@ -75,12 +75,15 @@ static void check_uniform(void)
 {
     struct sim *s = filled("16 17 18 mm", "sizes = uniform\ndiameter_min = 0.4 mm\n"
                                           "diameter_max = 1.3 mm\ncount = 3000\n");
-    check_abs(finer(s, 0.7e-3), (0.7 - 0.4) / 0.9, 0.003, "uniform by mass: part finer than 0.7 mm");
-    check_abs(finer(s, 1.1e-3), (1.1 - 0.4) / 0.9, 0.003, "uniform by mass: part finer than 1.1 mm");
+    check_abs(finer(s, 0.7e-3), (0.7 - 0.4) / 0.9, 0.003,
+              "uniform by mass: part finer than 0.7 mm");
+    check_abs(finer(s, 1.1e-3), (1.1 - 0.4) / 0.9, 0.003,
+              "uniform by mass: part finer than 1.1 mm");
     sim_free(s);
     s = filled("26 27 28 mm", "sizes = uniform\nsizes_by = number\ndiameter_min = 0.4 mm\n"
                               "diameter_max = 1.3 mm\ncount = 3000\n");
-    check_rel(measured(s, 0.3, false), 0.67e-3, 0.003, "uniform by number: three tenths are finer");
+    check_rel(measured(s, 0.3, false), 0.67e-3, 0.003,
+              "uniform by number: three tenths are finer");
     sim_free(s);
 }
 
@@ -142,7 +145,8 @@ static void check_dense(const char *what, const char *box, const char *keys, dou
         }
         sim_free(s);
     }
-    check(bits[0] == bits[1] && bits[0] == bits[2], "%s: the same bits on 1, 3, 7 threads", what);
+    check(bits[0] == bits[1] && bits[0] == bits[2], "%s: the same bits on 1, 3, 7 threads",
+          what);
 }
 
 int main(void)
@@ -155,8 +159,8 @@ int main(void)
     check_lognormal(false);
     check_uniform();
     check_tables();
-    check_dense("equal spheres at 0.45", "12 13 14 mm", "diameter = 0.937 mm\nporosity = 0.45\n",
-                0.45, 3e-4);
+    check_dense("equal spheres at 0.45", "12 13 14 mm",
+                "diameter = 0.937 mm\nporosity = 0.45\n", 0.45, 3e-4);
     check_dense("10:1 by mass at 0.45", "6 5 5.5 mm",
                 "sizes = uniform\ndiameter_min = 0.237 mm\ndiameter_max = 2.37 mm\n"
                 "porosity = 0.45\n",
