@@ -8,7 +8,8 @@
  *   Fhat = 1 + A Re^B + (C/24) Re^2/(Re + D)
  *
  * d is the volume-equivalent diameter. As Re -> 0 every shape feels Stokes' drag of that
- * sphere: a defect of the form, ganser has none of it. Best for Phi > 0.67.
+ * sphere: a defect of the form, ganser has none of it. Best for Phi > 0.67. At Phi = 1 it
+ * is not the fit that the authors give for spheres alone, but up to 7 % off it.
  *
  * There is no voidage factor: the slip is the superficial one, and neighbours are not felt.
  * For a bed or a suspension take a law that has one. */
