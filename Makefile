@@ -7,6 +7,7 @@ CONTACT   ?= none
 ROLLING   ?= none
 BOND      ?= none
 COHESION  ?= none
+LUBRICATION ?= none
 DRAG      ?= none
 POROSITY  ?= none
 FLUID     ?= none
@@ -17,11 +18,11 @@ MODE      ?= release
 # A list of forces "a+b" as the answers forces/a forces/b, and a table of them that is made below.
 forces_of = $(addprefix forces/,$(filter-out none,$(subst +, ,$(1)))) lists/forces-$(strip $(1))
 ANSWERS := shapes/$(SHAPE) contact/$(CONTACT) contact/rolling/$(ROLLING) contact/bond/$(BOND) \
-           contact/cohesion/$(COHESION) drag/$(DRAG) porosity/$(POROSITY) solver/fluid/$(FLUID) \
-           reference/$(REFERENCE) $(call forces_of,$(FORCES))
-SLOT_DIRS := shapes contact contact/rolling contact/bond contact/cohesion drag porosity \
-             solver/fluid reference
-NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)-$(strip $(FORCES))
+           contact/cohesion/$(COHESION) contact/lubrication/$(LUBRICATION) drag/$(DRAG) \
+           porosity/$(POROSITY) solver/fluid/$(FLUID) reference/$(REFERENCE) $(call forces_of,$(FORCES))
+SLOT_DIRS := shapes contact contact/rolling contact/bond contact/cohesion contact/lubrication \
+             drag porosity solver/fluid reference
+NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(LUBRICATION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)-$(strip $(FORCES))
 BUILD := build/$(MODE)
 
 # ---- below here nothing needs editing ----
@@ -114,8 +115,9 @@ $(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB) \
 	$(CC) $(LDFLAGS) -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call answers_of,bench/$*)) \
 	  $(LIB) $(LIBS)
 
-# This one calls every answer there is, see verify/answers.h.
-$(BUILD)/bench/answers: $(BUILD)/obj/bench/answers.o $(LIB) $(FIRST) $(SHARED)
+# These call every answer there is, see verify/answers.h.
+$(BUILD)/bench/answers $(BUILD)/bench/contact_answers: $(BUILD)/%: $(BUILD)/obj/%.o $(LIB) $(FIRST) \
+                                                       $(SHARED)
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) \
 	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl

@@ -7,6 +7,7 @@
 #include "contact.h"
 
 #include "../solver/elastic.h"
+#include "pairs.h"
 #include "spring.h"
 
 const struct about contact_about = {
@@ -22,11 +23,13 @@ const int contact_history = 0;
 
 static struct elastic elastic;
 
-struct constants {
-    real hertz; /* Pa, 4/3 E* */
-    real cn;    /* Pa^1/2, dashpot per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
+/* Of a pair of materials, as the loop needs them. */
+enum {
+    HERTZ, /* Pa, 4/3 E* */
+    CN,    /* Pa^1/2, dashpot per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
+    PARAMETERS
 };
-static struct constants constants[PAIRS_MAX];
+static real table[PAIRS_MAX][PARAMETERS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
@@ -36,23 +39,23 @@ void contact_init(struct scene *s, const struct materials *m)
         return;
     elastic_read(s, m, &elastic);
     elastic_damping(s, m, 0.0, false, zeta);
-    for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++)
-        constants[p] =
-            (struct constants){.hertz = (real)(4.0 / 3.0 * elastic.e_star[p]),
-                               .cn = (real)(tsuji * zeta[p] * sqrt(2.0 * elastic.e_star[p]))};
+    for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
+        table[p][HERTZ] = (real)(4.0 / 3.0 * elastic.e_star[p]);
+        table[p][CN] = (real)(tsuji * zeta[p] * sqrt(2.0 * elastic.e_star[p]));
+    }
 }
 
-/* One material all over needs no look-up per contact. */
-static inline __attribute__((always_inline)) void forces(struct touch *t, bool one,
-                                                         struct constants only)
+void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
+    (void)history;
+    _Alignas(64) real k[PARAMETERS][TOUCH];
+    pairs_spread(t, &table[0][0], PARAMETERS, k);
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const struct constants k = one ? only : constants[t->pair[c]];
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
         const real a = sqrt(t->r_eff[c] * depth), damping = t->start[c] * sqrt(a * t->m_eff[c]);
-        const real kn = k.hertz * a;
-        const real normal = kn * depth - k.cn * damping * t->vn[c];
+        const real kn = k[HERTZ][c] * a;
+        const real normal = kn * depth - k[CN][c] * damping * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
         t->fx[c] = fn * t->nx[c];
         t->fy[c] = fn * t->ny[c];
@@ -60,15 +63,6 @@ static inline __attribute__((always_inline)) void forces(struct touch *t, bool o
         t->fn[c] = fn;
         t->kn[c] = kn;
     }
-}
-
-void contact_forces(struct touch *t, real (*history)[TOUCH])
-{
-    (void)history;
-    if (elastic.n == 1)
-        forces(t, true, constants[0]);
-    else
-        forces(t, false, constants[0]);
 }
 
 void contact_energy(struct touch *t, real (*history)[TOUCH])

@@ -16,6 +16,7 @@
 #include "contact.h"
 
 #include "../solver/elastic.h"
+#include "pairs.h"
 #include "spring.h"
 
 const struct about contact_about = {
@@ -32,14 +33,15 @@ const int contact_history = 4; /* tangential force of the spring, N; depth, m */
 static struct elastic elastic;
 
 /* Of a pair of materials, as the loop needs them. */
-struct constants {
-    real hertz; /* Pa, 4/3 E* */
-    real shear; /* Pa, 8 G* */
-    real cn;    /* Pa^1/2, dashpots per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
-    real ct;    /* Pa^1/2, 2 sqrt(5/6) zeta sqrt(8 G*) */
-    real mu;
+enum {
+    HERTZ, /* Pa, 4/3 E* */
+    SHEAR, /* Pa, 8 G* */
+    CN,    /* Pa^1/2, dashpots per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
+    CT,    /* Pa^1/2, 2 sqrt(5/6) zeta sqrt(8 G*) */
+    MU,
+    PARAMETERS
 };
-static struct constants constants[PAIRS_MAX];
+static real table[PAIRS_MAX][PARAMETERS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
@@ -52,37 +54,36 @@ void contact_init(struct scene *s, const struct materials *m)
     materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
         const double damping = tsuji * zeta[p];
-        constants[p] = (struct constants){.hertz = (real)(4.0 / 3.0 * elastic.e_star[p]),
-                                          .shear = (real)(8.0 * elastic.g_star[p]),
-                                          .cn = (real)(damping * sqrt(2.0 * elastic.e_star[p])),
-                                          .ct = (real)(damping * sqrt(8.0 * elastic.g_star[p])),
-                                          .mu = (real)friction[p]};
+        table[p][HERTZ] = (real)(4.0 / 3.0 * elastic.e_star[p]);
+        table[p][SHEAR] = (real)(8.0 * elastic.g_star[p]);
+        table[p][CN] = (real)(damping * sqrt(2.0 * elastic.e_star[p]));
+        table[p][CT] = (real)(damping * sqrt(8.0 * elastic.g_star[p]));
+        table[p][MU] = (real)friction[p];
     }
 }
 
-/* One material all over needs no look-up per contact. */
-static inline __attribute__((always_inline)) void
-forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
+void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
+    _Alignas(64) real k[PARAMETERS][TOUCH];
+    pairs_spread(t, &table[0][0], PARAMETERS, k);
     real *const restrict hx = history[0], *const restrict hy = history[1];
     real *const restrict hz = history[2], *const restrict depth_old = history[3];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const struct constants k = one ? only : constants[t->pair[c]];
         const struct arrow n = touch_normal(t, c);
         const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
         const real a = sqrt(t->r_eff[c] * depth), damping = t->start[c] * sqrt(a * t->m_eff[c]);
-        const real kn = k.hertz * a, kt = k.shear * a;
-        const real normal = kn * depth - k.cn * damping * t->vn[c];
+        const real kn = k[HERTZ][c] * a, kt = k[SHEAR][c] * a;
+        const real normal = kn * depth - k[CN][c] * damping * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
         const bool unloads = depth < depth_old[c]; /* k_t falls with sqrt(depth) */
         const struct arrow held =
             spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, unloads ? depth : 1.0,
                         unloads ? depth_old[c] : 1.0);
         const struct spring f = spring_cut(arrow_axpy(held, -kt * dt, v),
-                                           arrow_scale(-k.ct * damping, v), k.mu * fn);
+                                           arrow_scale(-k[CT][c] * damping, v), k[MU][c] * fn);
         hx[c] = f.held.x;
         hy[c] = f.held.y;
         hz[c] = f.held.z;
@@ -95,20 +96,12 @@ forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
     }
 }
 
-void contact_forces(struct touch *t, real (*history)[TOUCH])
-{
-    if (elastic.n == 1)
-        forces(t, history, true, constants[0]);
-    else
-        forces(t, history, false, constants[0]);
-}
-
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     const real *const hx = history[0], *const hy = history[1], *const hz = history[2];
     for (int c = 0; c < t->n; c++) {
         const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
-        const double kt = (double)(constants[t->pair[c]].shear * sqrt(t->r_eff[c] * depth));
+        const double kt = (double)(table[t->pair[c]][SHEAR] * sqrt(t->r_eff[c] * depth));
         const double stored = (double)(hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c]);
         t->energy[c] =
             0.4 * (double)t->kn[c] * depth * depth + (kt > 0.0 ? 0.5 * stored / kt : 0.0);

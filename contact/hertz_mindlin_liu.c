@@ -2,10 +2,10 @@
  * tangential displacement, which softens towards Coulomb's limit.
  *
  *   F_n = k_n depth^(3/2) - sqrt(5) zeta sqrt(m* k_n) depth^(1/4) v_n, cut at zero,
- *   k_n = (4/3) E* sqrt(R*)                                                   [Liu24, eq. 16]
+ *   k_n = (4/3) E* sqrt(R*)                                                   [Li23, eq. 16]
  *   F_t = -mu k_n depth^(3/2) (1 - (1 - s/s_max)^(3/2)) - c_t v_t,  s <= s_max, F_t <= mu F_n,
  *   s_max = mu depth E* / (4 G*), which is mu depth (2 - nu)/(2 - 2 nu) for like bodies,
- *   c_t = zeta_t sqrt(6 mu m* k_n depth^(3/2) sqrt(1 - s/s_max)/s_max)        [Liu24, eq. 17]
+ *   c_t = zeta_t sqrt(6 mu m* k_n depth^(3/2) sqrt(1 - s/s_max)/s_max)        [Li23, eq. 17]
  * with the displacement s turned with the contact plane.
  *
  * Misprints mended: eq. (16) has depth^(1/2) for depth^(1/4), and lacks sqrt(5), in the damping;
@@ -18,6 +18,7 @@
 #include "contact.h"
 
 #include "../solver/elastic.h"
+#include "pairs.h"
 #include "spring.h"
 
 const struct about contact_about = {
@@ -25,7 +26,7 @@ const struct about contact_about = {
     .summary = "Hertz with Tsuji's damping, tangential force in closed form, Coulomb's limit",
     .equation =
         "F_n = k_n d^1.5 - c_n v_n; F_t = -mu k_n d^1.5 (1 - (1 - s/s_max)^1.5) - c_t v_t",
-    .source = "[Liu24, eqs 16, 17], [Hertz1882], [Mindlin49], [Tsuji92]",
+    .source = "[Li23, eqs 16, 17], [Hertz1882], [Mindlin49], [Tsuji92]",
     .range = "elastic bodies, overlaps below a few % of the radius"};
 
 const struct key contact_keys[] = {ELASTIC_KEYS, DAMPING_KEYS, FRICTION_KEYS, {0}};
@@ -35,15 +36,16 @@ const int contact_history = 4; /* s, m; depth, m */
 static struct elastic elastic;
 
 /* Of a pair of materials, as the loop needs them. */
-struct constants {
-    real hertz;     /* Pa, 4/3 E* */
-    real cn;        /* Pa^1/2, dashpot per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
-    real ct;        /* 1, 2 zeta_t */
-    real s_max;     /* 1, s_max/depth */
-    real inv_s_max; /* 1, its inverse; 0 without friction */
-    real mu;
+enum {
+    HERTZ,     /* Pa, 4/3 E* */
+    CN,        /* Pa^1/2, dashpot per sqrt(a m*): 2 sqrt(5/6) zeta sqrt(2 E*) */
+    CT,        /* 1, 2 zeta_t */
+    S_MAX,     /* 1, s_max/depth */
+    INV_S_MAX, /* 1, its inverse; 0 without friction */
+    MU,
+    PARAMETERS
 };
-static struct constants constants[PAIRS_MAX];
+static real table[PAIRS_MAX][PARAMETERS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
@@ -58,50 +60,50 @@ void contact_init(struct scene *s, const struct materials *m)
         const double e = elastic.e_star[p], s_max = friction[p] * e / (4.0 * elastic.g_star[p]);
         const double nu =
             0.5 * (elastic.poisson[p / m->n] + elastic.poisson[p % m->n]); /* unlike: mean */
-        constants[p] = (struct constants){.hertz = (real)(4.0 / 3.0 * e),
-                                          .cn = (real)(tsuji * zeta[p] * sqrt(2.0 * e)),
-                                          .ct = (real)(zeta[p] / (1.0 + nu)),
-                                          .s_max = (real)s_max,
-                                          .inv_s_max = (real)(s_max > 0.0 ? 1.0 / s_max : 0.0),
-                                          .mu = (real)friction[p]};
+        table[p][HERTZ] = (real)(4.0 / 3.0 * e);
+        table[p][CN] = (real)(tsuji * zeta[p] * sqrt(2.0 * e));
+        table[p][CT] = (real)(zeta[p] / (1.0 + nu));
+        table[p][S_MAX] = (real)s_max;
+        table[p][INV_S_MAX] = (real)(s_max > 0.0 ? 1.0 / s_max : 0.0);
+        table[p][MU] = (real)friction[p];
     }
 }
 
-/* One material all over needs no look-up per contact. */
-static inline __attribute__((always_inline)) void
-forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
+void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
+    _Alignas(64) real k[PARAMETERS][TOUCH];
+    pairs_spread(t, &table[0][0], PARAMETERS, k);
     real *const restrict hx = history[0], *const restrict hy = history[1];
     real *const restrict hz = history[2], *const restrict depth_old = history[3];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const struct constants k = one ? only : constants[t->pair[c]];
         const struct arrow n = touch_normal(t, c);
         const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const real a = sqrt(t->r_eff[c] * depth), kn = k.hertz * a, elastic_n = kn * depth;
-        const real normal = elastic_n - k.cn * t->start[c] * sqrt(a * t->m_eff[c]) * t->vn[c];
+        const real a = sqrt(t->r_eff[c] * depth), kn = k[HERTZ][c] * a, elastic_n = kn * depth;
+        const real normal =
+            elastic_n - k[CN][c] * t->start[c] * sqrt(a * t->m_eff[c]) * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
         const bool loads = depth > depth_old[c];
         const struct arrow turned =
             spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, loads ? depth_old[c] : 1.0,
                         loads ? depth : 1.0);
         const struct arrow to = arrow_axpy(turned, dt, v);
-        const real size = sqrt(arrow_dot(to, to)), most = k.s_max * depth;
+        const real size = sqrt(arrow_dot(to, to)), most = k[S_MAX][c] * depth;
         const bool full = !(size < most);
         const struct arrow s = arrow_scale(size > most ? most / size : 1.0, to);
         /* q = 1 - s/s_max; the force per s has a limit where s goes to zero */
-        const real x = full ? 1.0 : size * (k.inv_s_max / (depth > 0.0 ? depth : 1.0));
+        const real x = full ? 1.0 : size * (k[INV_S_MAX][c] / (depth > 0.0 ? depth : 1.0));
         const real q = 1.0 - x, root = sqrt(q);
-        const real mobilised = k.mu * elastic_n * (1.0 - q * root);
+        const real mobilised = k[MU][c] * elastic_n * (1.0 - q * root);
         const real length = full ? most : size;
         const struct arrow spring = arrow_scale(length > 0.0 ? -mobilised / length : 0.0, s);
         /* tangent stiffness 1.5 mu F_n^e sqrt(q)/s_max = 1.5 mu k_n/(s_max/depth) sqrt(q) */
-        const real tangent = 1.5 * k.mu * k.inv_s_max * kn * root;
+        const real tangent = 1.5 * k[MU][c] * k[INV_S_MAX][c] * kn * root;
         const struct arrow dashpot =
-            arrow_scale(-k.ct * t->start[c] * sqrt(t->m_eff[c] * tangent), v);
-        const struct spring f = spring_cut(spring, dashpot, k.mu * fn);
+            arrow_scale(-k[CT][c] * t->start[c] * sqrt(t->m_eff[c] * tangent), v);
+        const struct spring f = spring_cut(spring, dashpot, k[MU][c] * fn);
         hx[c] = s.x;
         hy[c] = s.y;
         hz[c] = s.z;
@@ -114,26 +116,18 @@ forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
     }
 }
 
-void contact_forces(struct touch *t, real (*history)[TOUCH])
-{
-    if (elastic.n == 1)
-        forces(t, history, true, constants[0]);
-    else
-        forces(t, history, false, constants[0]);
-}
-
 /* The spring's is the integral of its force over s, mu F_n^e s_max (x - 0.4 (1 - (1 -
  * x)^(5/2))). */
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     const real *const hx = history[0], *const hy = history[1], *const hz = history[2];
     for (int c = 0; c < t->n; c++) {
-        const struct constants *const k = &constants[t->pair[c]];
+        const real *const k = table[t->pair[c]];
         const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
-        const double most = (double)k->s_max * depth, kn = (double)t->kn[c];
+        const double most = (double)k[S_MAX] * depth, kn = (double)t->kn[c];
         const double s = sqrt((double)(hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c]));
         const double x = most > 0.0 ? fmin(s / most, 1.0) : 0.0;
-        t->energy[c] = 0.4 * kn * depth * depth + (double)k->mu * kn * depth * most *
+        t->energy[c] = 0.4 * kn * depth * depth + (double)k[MU] * kn * depth * most *
                                                       (x - 0.4 * (1.0 - pow(1.0 - x, 2.5)));
     }
 }

@@ -6,11 +6,12 @@
  * (4), (5) print the inverse, (k_i + k_j)/(k_i k_j), whose unit is m/N. Dashpots either from
  * restitution, c = 2 zeta sqrt(k m*), where zeta gives the restitution asked for although the
  * contact does not pull (restitution.c), or from damping_ratio (that zeta), or constant
- * coefficients c_n, c_t as given [Li24, eqs 13, 14]. What the tangential spring bears turns with
+ * coefficients c_n, c_t as given [Ma23, eqs 13, 14]. What the tangential spring bears turns with
  * the contact plane and is cut where the contact slides. */
 #include "contact.h"
 
 #include "../solver/elastic.h"
+#include "pairs.h"
 #include "spring.h"
 
 const struct about contact_about = {
@@ -48,13 +49,17 @@ static int materials;
 static double k_n[PAIRS_MAX];
 
 /* Of a pair of materials, as the loop needs them. */
-struct constants {
-    real kn, kt; /* N/m */
-    real cn, ct; /* dashpots per sqrt(m*): 2 zeta sqrt(k) */
-    real bn, bt; /* N s/m, dashpots besides */
-    real mu;
+enum {
+    KN, /* N/m */
+    KT, /* N/m */
+    CN, /* dashpots per sqrt(m*): 2 zeta sqrt(k) */
+    CT,
+    BN, /* N s/m, dashpots besides */
+    BT,
+    MU,
+    PARAMETERS
 };
-static struct constants constants[PAIRS_MAX];
+static real table[PAIRS_MAX][PARAMETERS];
 
 void contact_init(struct scene *s, const struct materials *m)
 {
@@ -81,37 +86,36 @@ void contact_init(struct scene *s, const struct materials *m)
         const double kt = ratio[p] * k_n[p];
         const bool by_zeta = !isnan(zeta[p]);
         const double damping = by_zeta ? 2.0 * zeta[p] : 0.0, b = by_zeta ? 0.0 : bn[p];
-        constants[p] = (struct constants){.kn = (real)k_n[p],
-                                          .kt = (real)kt,
-                                          .cn = (real)(damping * sqrt(k_n[p])),
-                                          .ct = (real)(damping * sqrt(kt)),
-                                          .bn = (real)b,
-                                          .bt = (real)(by_zeta || isnan(bt[p]) ? b : bt[p]),
-                                          .mu = (real)friction[p]};
+        table[p][KN] = (real)k_n[p];
+        table[p][KT] = (real)kt;
+        table[p][CN] = (real)(damping * sqrt(k_n[p]));
+        table[p][CT] = (real)(damping * sqrt(kt));
+        table[p][BN] = (real)b;
+        table[p][BT] = (real)(by_zeta || isnan(bt[p]) ? b : bt[p]);
+        table[p][MU] = (real)friction[p];
     }
 }
 
-/* One material all over needs no look-up per contact. */
-static inline __attribute__((always_inline)) void
-forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
+void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
+    _Alignas(64) real k[PARAMETERS][TOUCH];
+    pairs_spread(t, &table[0][0], PARAMETERS, k);
     real *const restrict hx = history[0], *const restrict hy = history[1];
     real *const restrict hz = history[2];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const struct constants k = one ? only : constants[t->pair[c]];
         const struct arrow n = touch_normal(t, c);
         const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0, start = t->start[c];
         const real root = sqrt(t->m_eff[c]);
-        const real normal = k.kn * depth - start * (k.cn * root + k.bn) * t->vn[c];
+        const real normal = k[KN][c] * depth - start * (k[CN][c] * root + k[BN][c]) * t->vn[c];
         const real push = normal > 0.0 ? normal : 0.0;
         const real fn = depth > 0.0 ? push : 0.0;
         const struct arrow held = spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, 1.0, 1.0);
         const struct spring f =
-            spring_cut(arrow_axpy(held, -k.kt * dt, v),
-                       arrow_scale(-start * (k.ct * root + k.bt), v), k.mu * fn);
+            spring_cut(arrow_axpy(held, -k[KT][c] * dt, v),
+                       arrow_scale(-start * (k[CT][c] * root + k[BT][c]), v), k[MU][c] * fn);
         hx[c] = f.held.x;
         hy[c] = f.held.y;
         hz[c] = f.held.z;
@@ -119,27 +123,19 @@ forces(struct touch *t, real (*history)[TOUCH], bool one, struct constants only)
         t->fy[c] = fn * n.y + f.total.y;
         t->fz[c] = fn * n.z + f.total.z;
         t->fn[c] = fn;
-        t->kn[c] = k.kn;
+        t->kn[c] = k[KN][c];
     }
-}
-
-void contact_forces(struct touch *t, real (*history)[TOUCH])
-{
-    if (materials == 1)
-        forces(t, history, true, constants[0]);
-    else
-        forces(t, history, false, constants[0]);
 }
 
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     const real *const hx = history[0], *const hy = history[1], *const hz = history[2];
     for (int c = 0; c < t->n; c++) {
-        const struct constants *const k = &constants[t->pair[c]];
+        const real *const k = table[t->pair[c]];
         const double depth = (double)(t->depth[c] > 0.0 ? t->depth[c] : 0.0);
         const double stored = (double)(hx[c] * hx[c] + hy[c] * hy[c] + hz[c] * hz[c]);
-        t->energy[c] = 0.5 * (double)k->kn * depth * depth +
-                       (k->kt > 0.0 ? 0.5 * stored / (double)k->kt : 0.0);
+        t->energy[c] = 0.5 * (double)k[KN] * depth * depth +
+                       (k[KT] > 0.0 ? 0.5 * stored / (double)k[KT] : 0.0);
     }
 }
 

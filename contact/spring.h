@@ -57,18 +57,14 @@ struct spring {
     struct arrow held;  /* what the spring is left with */
 };
 
-/* Where the two bear more than the limit, the contact slides: the spring is then what gives the
- * total at the limit. */
+/* Where the two bear more than the limit, the contact slides: the total is cut to the limit, and
+ * what the spring holds by the same factor. (To leave the spring with what gives the total at the
+ * limit, total - dashpot, makes energy where the dashpot alone is beyond the limit.) */
 SPRING_INLINE struct spring spring_cut(struct arrow held, struct arrow dashpot, real limit)
 {
     const struct arrow q = arrow_axpy(held, 1.0, dashpot);
-    const real size = sqrt(arrow_dot(q, q));
-    const bool slides = size > limit;
-    const struct arrow total = arrow_scale(slides ? limit / size : 1.0, q);
-    const struct arrow rest = arrow_axpy(total, -1.0, dashpot);
-    return (struct spring){
-        .total = total,
-        .held = {slides ? rest.x : held.x, slides ? rest.y : held.y, slides ? rest.z : held.z}};
+    const real size = sqrt(arrow_dot(q, q)), part = size > limit ? limit / size : 1.0;
+    return (struct spring){.total = arrow_scale(part, q), .held = arrow_scale(part, held)};
 }
 
 /* Normal and relative velocity in the plane of contact c. */

@@ -1,7 +1,7 @@
 /* contact/touch.h - a block of contacts, the unit in which laws work.
  *
  * The contact loop gathers contacts into blocks of up to TOUCH, structure of arrays, and hands
- * each block in turn to contact_forces, cohesion_forces, rolling_moments, bond_forces. A law is
+ * each block in turn to contact_forces, cohesion_forces, lubrication_forces, rolling_moments, bond_forces. A law is
  * thereby one plain loop over arrays in the first-level cache, which the compiler vectorises (a
  * lane is a contact); the call costs nothing per contact, so no law needs inlining.
  *
@@ -31,12 +31,13 @@ enum { BROKE_TENSION = 1, BROKE_SHEAR = 2 }; /* how a bond broke at this step */
 struct touch {
     /* given */
     int n;
-    double dt;         /* s, the grains' step */
-    double time;       /* s, of the state at hand; settling is before 0 */
-    int pair[TOUCH];   /* material_i * n_materials + material_j, for tables of parameters */
-    real depth[TOUCH]; /* m, overlap; negative: a gap, within the range of a law */
-    real r_eff[TOUCH]; /* m, 1/(1/r_i + 1/r_j); r_i against a plane */
-    real m_eff[TOUCH]; /* kg, 1/(1/m_i + 1/m_j); m_i against a wall or a frozen grain */
+    double dt;           /* s, the grains' step */
+    double time;         /* s, of the state at hand; settling is before 0 */
+    _Alignas(64)         /* this and all arrays below: no vector straddles lines of the cache */
+        int pair[TOUCH]; /* material_i * n_materials + material_j, for tables of parameters */
+    real depth[TOUCH];   /* m, overlap; negative: a gap, within the range of a law */
+    real r_eff[TOUCH];   /* m, 1/(1/r_i + 1/r_j); r_i against a plane */
+    real m_eff[TOUCH];   /* kg, 1/(1/m_i + 1/m_j); m_i against a wall or a frozen grain */
     real r_i[TOUCH], r_j[TOUCH];          /* m, radii of curvature; r_j = 0 for a plane */
     real nx[TOUCH], ny[TOUCH], nz[TOUCH]; /* unit normal */
     real vx[TOUCH], vy[TOUCH], vz[TOUCH]; /* m/s, at the half step: what moves springs */

@@ -5,6 +5,7 @@
 #include "../contact/bond/bond.h"
 #include "../contact/cohesion/cohesion.h"
 #include "../contact/contact.h"
+#include "../contact/lubrication/lubrication.h"
 #include "../contact/rolling/rolling.h"
 #include "contact_loop.h"
 #include "sim.h"
@@ -172,6 +173,8 @@ static void apply_laws(struct block *b)
     h += contact_history;
     cohesion_forces(&b->t, h);
     h += cohesion_history;
+    lubrication_forces(&b->t, h);
+    h += lubrication_history;
     rolling_moments(&b->t, h);
     h += rolling_history;
     bond_forces(&b->t, h);
@@ -185,6 +188,8 @@ static double energy(struct block *b, double reach)
     h += contact_history;
     cohesion_energy(&b->t, h);
     h += cohesion_history;
+    lubrication_energy(&b->t, h);
+    h += lubrication_history;
     rolling_energy(&b->t, h);
     h += rolling_history;
     bond_energy(&b->t, h);
@@ -285,7 +290,7 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
 void block_work(struct sim *s, struct block *b, int first, struct sums *own,
                 struct report *report, double4 *wall_force, bool asked)
 {
-    const unsigned needs = rolling_needs | cohesion_needs | bond_needs;
+    const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
     b->c.n = b->t.n = pad(b);
     b->t.dt = s->run.dt;
     b->t.time = s->t;

@@ -12,17 +12,19 @@
 #include "../contact/bond/bond.h"
 #include "../contact/cohesion/cohesion.h"
 #include "../contact/contact.h"
+#include "../contact/lubrication/lubrication.h"
 #include "../contact/rolling/rolling.h"
 #include "sim.h"
 
 int contact_rows(void)
 {
-    return contact_history + rolling_history + cohesion_history + bond_history;
+    return contact_history + rolling_history + cohesion_history + lubrication_history +
+           bond_history;
 }
 
 double contact_reach(void)
 {
-    return fmax(cohesion_range(), bond_range());
+    return fmax(fmax(cohesion_range(), lubrication_range()), bond_range());
 }
 
 void contact_create(struct sim *s, struct scene *scene)
@@ -35,6 +37,7 @@ void contact_create(struct sim *s, struct scene *scene)
     contact_init(scene, &materials);
     rolling_init(scene, &materials);
     cohesion_init(scene, &materials);
+    lubrication_init(scene, &materials);
     bond_init(scene, &materials);
     xfree(names);
     s->contacts = xalloc(1, sizeof *s->contacts);

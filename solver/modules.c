@@ -5,6 +5,7 @@
 #include "../contact/bond/bond.h"
 #include "../contact/cohesion/cohesion.h"
 #include "../contact/contact.h"
+#include "../contact/lubrication/lubrication.h"
 #include "../contact/rolling/rolling.h"
 #include "../drag/drag.h"
 #include "../forces/force.h"
@@ -20,6 +21,7 @@ const struct slot slots[SLOTS] = {
     {"rolling", &rolling_about, rolling_keys},
     {"bond", &bond_about, bond_keys},
     {"cohesion", &cohesion_about, cohesion_keys},
+    {"lubrication", &lubrication_about, lubrication_keys},
     {"drag", &drag_about, drag_keys},
     {"porosity", &porosity_about, porosity_keys},
     {"fluid", &fluid_about, fluid_keys},
@@ -33,6 +35,8 @@ static const struct key modules_keys[] = {
     {"modules", "rolling", KEY_TEXT, "", "", "none", "what resists rolling?"},
     {"modules", "bond", KEY_TEXT, "", "", "none", "what holds glued grains together?"},
     {"modules", "cohesion", KEY_TEXT, "", "", "none", "what pulls when wet or sticky?"},
+    {"modules", "lubrication", KEY_TEXT, "", "", "none",
+     "what does the film between grains do?"},
     {"modules", "drag", KEY_TEXT, "", "", "none", "what resists the flow?"},
     {"modules", "porosity", KEY_TEXT, "", "", "none", "what does the grid see of a grain?"},
     {"modules", "fluid", KEY_TEXT, "", "", "none", "what flows?"},

@@ -4,7 +4,7 @@
 
 #include "scene.h"
 
-enum { SLOTS = 9 };
+enum { SLOTS = 10 };
 
 struct slot {
     const char *name;          /* "contact"; the key in [modules] */

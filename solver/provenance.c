@@ -26,9 +26,9 @@ __attribute__((format(printf, 4, 5))) static void put(struct provenance *line, i
 int provenance(struct provenance line[PROVENANCE_LINES])
 {
     static const char *const module_key[SLOTS] = {
-        "module_shape",    "module_contact",  "module_rolling",
-        "module_bond",     "module_cohesion", "module_drag",
-        "module_porosity", "module_fluid",    "module_reference"};
+        "module_shape",    "module_contact",     "module_rolling", "module_bond",
+        "module_cohesion", "module_lubrication", "module_drag",    "module_porosity",
+        "module_fluid",    "module_reference"};
     int n = 0;
     struct utsname host;
     char date[64] = "";

@@ -9,7 +9,7 @@ struct provenance {
     char value[512];
 };
 
-enum { PROVENANCE_LINES = 20 };
+enum { PROVENANCE_LINES = 24 };
 
 /* Fills up to PROVENANCE_LINES lines: revision, compiler, flags, libraries, answers, host,
  * date, threads. Returns how many. */

@@ -32,6 +32,8 @@ static const struct folder folders[] = {
     {"bond", "BOND", "contact/bond", "none", "what holds them when they are glued?"},
     {"cohesion", "COHESION", "contact/cohesion", "none",
      "what pulls when they are wet or sticky?"},
+    {"lubrication", "LUBRICATION", "contact/lubrication", "none",
+     "what does the film between grains do?"},
     {"drag", "DRAG", "drag", "none", "what resists the flow?"},
     {"porosity", "POROSITY", "porosity", "none", "what does the grid see of a grain?"},
     {"fluid", "FLUID", "solver/fluid", "none", "what flows?"},

@@ -18,8 +18,8 @@ static int answers_is_object(const struct dirent *e)
 }
 
 /* Visits every answer of the folder ("drag") beside the test's program, in order of name. */
-static int answers_visit(const char *program, const char *folder,
-                         void (*visit)(const char *name, void *answer))
+static inline int answers_visit(const char *program, const char *folder,
+                                void (*visit)(const char *name, void *answer))
 {
     char path[1024], file[2048], copy[1024];
     struct dirent **entry;

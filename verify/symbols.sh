@@ -34,8 +34,8 @@ state() {
 
 make -s -j"$(nproc)" answers > /dev/null
 check $? "every answer builds"
-for folder in shapes contact contact/rolling contact/bond contact/cohesion drag porosity \
-    solver/fluid reference; do
+for folder in shapes contact contact/rolling contact/bond contact/cohesion contact/lubrication \
+    drag porosity solver/fluid reference; do
     reference=none
     [ "$folder" = shapes ] && reference=sphere
     want=$(contract "build/release/answers/$folder/$reference.so")
