@@ -46,18 +46,33 @@ static void pad_lambda(struct poisson *p)
     }
 }
 
+void box_create(struct box *b, const struct grid *g)
+{
+    const int first = g->n[0] == 1 && g->n[1] > 1 ? 1 : 0, axis[3] = {first, 1 - first, 2};
+    b->total = 1;
+    b->start = 0;
+    for (int i = 0; i < 3; i++) {
+        b->axis[i] = axis[i];
+        b->n[i] = g->n[axis[i]];
+        b->s[i] = (int)b->total;
+        b->start += b->s[i];
+        b->total *= (size_t)b->n[i] + 2;
+        b->grid_s[i] = g->s[axis[i]];
+    }
+    b->grid_start = cell(g, 1, 1, 1);
+}
+
 struct poisson *poisson_create(const struct grid *g, const enum poisson_side side[6])
 {
     struct poisson *const p = xalloc(1, sizeof *p);
-    const int a = g->n[0] == 1 && g->n[1] > 1 ? 1 : 0, axis[3] = {a, 1 - a, 2};
+    box_create(&p->box, g);
+    const int *const axis = p->box.axis;
     p->g = g;
-    p->start = cell(g, 1, 1, 1);
     p->norm = 1.0;
     for (int i = 0; i < 6; i++)
         p->side[i] = side[i];
     for (int i = 0; i < 3; i++) {
-        p->n[i] = g->n[axis[i]];
-        p->stride[i] = g->s[axis[i]];
+        p->n[i] = p->box.n[i];
         if (i < 2 && p->n[i] > 1) {
             p->t[i] = transform_create(p->n[i], side[2 * axis[i]], side[2 * axis[i] + 1]);
             p->norm *= p->t[i]->norm;
@@ -152,15 +167,25 @@ void poisson_singular_column(const struct poisson *p, double *x)
     xfree(pivot);
 }
 
-void poisson_solve_hooked(struct poisson *p, const double *flat, const double *up, double shift,
+void poisson_layout(struct poisson *p, bool grid)
+{
+    p->start = grid ? p->box.grid_start : p->box.start;
+    for (int i = 0; i < 3; i++)
+        p->stride[i] = grid ? p->box.grid_s[i] : p->box.s[i];
+}
+
+void poisson_solve_double(struct poisson *p, const double *flat, const double *up, double shift,
                           const double *rhs, double *out, const struct poisson_hook *hook)
 {
     poisson_prepare(p, flat, up, shift);
+    poisson_layout(p, false);
     direct(p, rhs, out, hook);
 }
 
 void poisson_solve(struct poisson *p, const double *flat, const double *up, double shift,
                    const double *rhs, double *out)
 {
-    poisson_solve_hooked(p, flat, up, shift, rhs, out, NULL);
+    poisson_prepare(p, flat, up, shift);
+    poisson_layout(p, true);
+    direct(p, rhs, out, NULL);
 }

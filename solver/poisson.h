@@ -10,6 +10,8 @@
 #include "grid.h"
 #include "transform.h"
 
+enum { POISSON_SERIAL = 8192 }; /* cells that are not worth a team of threads */
+
 struct poisson; /* tables and scratch */
 
 struct poisson *poisson_create(const struct grid *g, const enum poisson_side side[6]);
@@ -24,20 +26,31 @@ bool poisson_singular(const struct poisson *p, double shift);
 void poisson_solve(struct poisson *p, const double *flat, const double *up, double shift,
                    const double *rhs, double *out);
 
-/* Work on whole layers lo..hi (1..n) that the solve calls from its threads, each layer once:
- * `before` just before it reads rhs there, `after` just after it has written out. */
+/* The cells in the order that the solvers work in: along x, then y, then z, or along y first
+ * where x is one cell thick. Its own fields have one ghost on each side, like those of the grid. */
+struct box {
+    int axis[3]; /* of rows, of the rows of a plane, of planes */
+    int n[3];    /* cells */
+    int s[3];    /* strides; s[0] = 1 */
+    int start;   /* first interior cell */
+    size_t total;
+    int grid_start, grid_s[3]; /* the same cells in fields of the grid */
+};
+
+void box_create(struct box *b, const struct grid *g);
+
+/* What the solve calls from its threads, each plane once, just after it has written out there
+ * (planes lo..hi - 1 from 0). */
 struct poisson_hook {
-    void (*before)(void *with, int lo, int hi);
     void (*after)(void *with, int lo, int hi);
     void *with;
 };
 
-/* The same in single precision, to about 1e-6; `hook` may be NULL. */
+/* The same for fields of the box, the second in single precision (to about 1e-6); `hook` may be
+ * NULL. */
+void poisson_solve_double(struct poisson *p, const double *flat, const double *up, double shift,
+                          const double *rhs, double *out, const struct poisson_hook *hook);
 void poisson_solve_single(struct poisson *p, const double *flat, const double *up, double shift,
                           const float *rhs, float *out, const struct poisson_hook *hook);
-
-/* The double solve with hooks. */
-void poisson_solve_hooked(struct poisson *p, const double *flat, const double *up, double shift,
-                          const double *rhs, double *out, const struct poisson_hook *hook);
 
 #endif

@@ -286,23 +286,17 @@ static void sweep(const struct poisson *p, size_t first, int packs)
         x[(size_t)k * plane] = (REAL)column[k];
 }
 
-static void hooked(const struct poisson_hook *hook, bool before, int k0, int k1)
+static void hooked(const struct poisson_hook *hook, int k0, int k1)
 {
-    if (hook && before && hook->before)
-        hook->before(hook->with, k0 + 1, k1);
-    if (hook && !before && hook->after)
-        hook->after(hook->with, k0 + 1, k1);
+    if (hook)
+        hook->after(hook->with, k0, k1);
 }
 
 /* Few planes: threads share each of them. */
-static void few_forward(const struct poisson *p, const REAL *rhs,
-                        const struct poisson_hook *hook)
+static void few_forward(const struct poisson *p, const REAL *rhs)
 {
     const long lines = (long)p->n[1] * p->n[2];
     const int groups = (p->n[0] + LINES - 1) / LINES;
-#pragma omp for schedule(static)
-    for (int k = 0; k < p->n[2]; k++)
-        hooked(hook, true, k, k + 1);
 #pragma omp for schedule(static)
     for (long line = 0; line < lines; line += LINES)
         rows_forward(p, rhs, line, line + LINES < lines ? line + LINES : lines);
@@ -323,7 +317,7 @@ static void few_backward(const struct poisson *p, REAL *out, const struct poisso
         rows_backward(p, line, line + LINES < lines ? line + LINES : lines, out);
 #pragma omp for schedule(static)
     for (int k = 0; k < p->n[2]; k++)
-        hooked(hook, false, k, k + 1);
+        hooked(hook, k, k + 1);
 }
 
 /* Planes taken together, so that their rows fill the lanes. */
@@ -338,15 +332,14 @@ static void direct(const struct poisson *p, const REAL *rhs, REAL *out,
     const int n = p->n[2], slab = planes_of_slab(p), slabs = (n + slab - 1) / slab;
     const size_t modes = (size_t)p->width[SINGLE] * p->n[1], block = SWEEP_PACKS * LANES;
     const long blocks = (long)((modes + block - 1) / block);
-#pragma omp parallel
+#pragma omp parallel if (modes * n > POISSON_SERIAL)
     {
         if (slabs < FEW_PLANES) {
-            few_forward(p, rhs, hook);
+            few_forward(p, rhs);
         } else {
 #pragma omp for schedule(static)
             for (int q = 0; q < slabs; q++) {
                 const int k0 = q * slab, k1 = k0 + slab < n ? k0 + slab : n;
-                hooked(hook, true, k0, k1);
                 planes_forward(p, rhs, k0, k1);
             }
         }
@@ -362,7 +355,7 @@ static void direct(const struct poisson *p, const REAL *rhs, REAL *out,
             for (int q = 0; q < slabs; q++) {
                 const int k0 = q * slab, k1 = k0 + slab < n ? k0 + slab : n;
                 planes_backward(p, k0, k1, out);
-                hooked(hook, false, k0, k1);
+                hooked(hook, k0, k1);
             }
         }
     }

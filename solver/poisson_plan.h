@@ -13,9 +13,9 @@ struct layer { /* of the tridiagonal systems: -diagonal - flat lambda, and its n
 struct poisson {
     const struct grid *g;
     enum poisson_side side[6];
-    int n[3];               /* cells along a row, rows of a plane, planes */
-    int stride[3];          /* of the grid's fields in these directions */
-    int start;              /* first interior cell */
+    struct box box;
+    int n[3];               /* the box's: cells along a row, rows of a plane, planes */
+    int start, stride[3];   /* of this solve's fields */
     struct transform *t[2]; /* along rows and across them; NULL where one cell thick */
     double *lambda;         /* rows x n[0], 1/m2 */
     int width[2];           /* modes in a row of the work, padded; double and single */
@@ -31,6 +31,8 @@ struct poisson {
 
 /* Layers for these coefficients, scratch for the threads at hand. */
 void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift);
+
+void poisson_layout(struct poisson *p, bool grid); /* fields of the grid, or of the box */
 
 /* The column x[0..n-1] of the mode in whose plane a constant solves the equation: zero mean. */
 void poisson_singular_column(const struct poisson *p, double *x);

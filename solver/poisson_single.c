@@ -14,5 +14,6 @@ void poisson_solve_single(struct poisson *p, const double *flat, const double *u
                           const float *rhs, float *out, const struct poisson_hook *hook)
 {
     poisson_prepare(p, flat, up, shift);
+    poisson_layout(p, false);
     direct(p, rhs, out, hook);
 }
