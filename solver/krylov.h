@@ -16,11 +16,11 @@
 struct krylov {
     const struct box *box;
     bool periodic[3];
-    size_t real;    /* bytes of a number: 4 or 8 */
-    void *c[3];     /* on low faces; set by pressure.c, ghosts included */
-    void *x, *r;    /* correction (from 0) and residual */
+    size_t real; /* bytes of a number: 4 or 8 */
+    void *c[3];  /* on low faces; set by pressure.c, ghosts included */
+    void *x, *r; /* correction (from 0) and residual */
     void *z, *s, *q;
-    double *part;   /* sums of the rows, for dot products */
+    double *part; /* sums of the rows, for dot products */
     double shift, rz;
     double *flat, *up; /* of the layers, for the direct solve (scaled as c) */
     struct poisson *direct;

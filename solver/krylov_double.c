@@ -1,7 +1,7 @@
 /* krylov_double.c - conjugate gradients and multigrid in double precision, see krylov.h. */
 #include "krylov.h"
 
-#define REAL double
+#define REAL   double
 #define DIRECT poisson_solve_double
 #include "rows_body.h"
 #include "multigrid_body.h"

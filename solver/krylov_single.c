@@ -1,7 +1,7 @@
 /* krylov_single.c - conjugate gradients and multigrid in single precision, see krylov.h. */
 #include "krylov.h"
 
-#define REAL float
+#define REAL   float
 #define DIRECT poisson_solve_single
 #include "rows_body.h"
 #include "multigrid_body.h"

@@ -141,8 +141,8 @@ static double spacing(const struct stencil *t, int a, int i)
 }
 
 /* Low faces of direction a of a coarse row of n cells: the fine faces in them, summed. */
-static void coarse_row(const struct level *l, const struct stencil *t, int a, int j, int k, int n,
-                       REAL *restrict out)
+static void coarse_row(const struct level *l, const struct stencil *t, int a, int j, int k,
+                       int n, REAL *restrict out)
 {
     const struct stencil *const f = &l->t;
     const int *const factor = l->factor;
@@ -159,7 +159,8 @@ static void coarse_row(const struct level *l, const struct stencil *t, int a, in
         out[i] = 0;
     for (int z = k0; z < k1; z++)
         for (int y = j0; y < j1; y++) {
-            const REAL *const c = f->c[a] + f->start + (size_t)y * f->s[1] + (size_t)z * f->s[2];
+            const REAL *const c =
+                f->c[a] + f->start + (size_t)y * f->s[1] + (size_t)z * f->s[2];
             for (int i = 0; i < n; i++) {
                 const int x = i * factor[0] < f->n[0] ? i * factor[0] : f->n[0];
                 out[i] += c[x];
@@ -309,8 +310,8 @@ static void prolong_row(struct level *l, const struct level *next, long row)
 {
     const struct stencil *const t = &l->t, *const c = &next->t;
     const int n = t->n[0];
-    const long coarse = (row / t->n[1]) / l->factor[2] * c->n[1] +
-                        (row % t->n[1]) / l->factor[1];
+    const long coarse =
+        (row / t->n[1]) / l->factor[2] * c->n[1] + (row % t->n[1]) / l->factor[1];
     REAL *const restrict x = l->x + row_at(t, row);
     const REAL *const e = next->x + row_at(c, coarse);
     if (l->factor[0] == 1)
@@ -330,8 +331,8 @@ static void prolong_row(struct level *l, const struct level *next, long row)
 static REAL omega_of(int step)
 {
     const double high = 2.0, low = 0.3, pi = 3.14159265358979323846;
-    return (REAL)(1.0 / (0.5 * (high + low) +
-                         0.5 * (high - low) * cos(pi * (step + 0.5) / STEPS)));
+    return (REAL)(1.0 /
+                  (0.5 * (high + low) + 0.5 * (high - low) * cos(pi * (step + 0.5) / STEPS)));
 }
 
 static void descend(struct multigrid *m, int at, const REAL *b)

@@ -10,7 +10,7 @@ struct stencil {
     int n[3], s[3], start;
     size_t total;
     bool periodic[3];
-    REAL *c[3];      /* on low faces; of the last cell also on its high face */
+    REAL *c[3]; /* on low faces; of the last cell also on its high face */
     double shift;
     REAL *weight[3]; /* fine cells along each direction in a cell; NULL: 1 */
 };
@@ -32,8 +32,8 @@ static inline bool worth_threads(const struct stencil *t)
 }
 
 /* out[i] = (A f)[i] of the row whose first cell is f[0] */
-static inline void row_apply(const struct stencil *t, const REAL *restrict f, size_t at, long row,
-                             REAL *restrict out)
+static inline void row_apply(const struct stencil *t, const REAL *restrict f, size_t at,
+                             long row, REAL *restrict out)
 {
     const int n = t->n[0], sj = t->s[1], sk = t->s[2];
     const REAL *const restrict cx = t->c[0] + at, *const restrict cy = t->c[1] + at,
