@@ -181,6 +181,19 @@ static void sense_squares(struct sim *s)
     }
 }
 
+/* Before the first fluid step: the change of velocity that the forces at hand would make in one, so
+ * that implicit drag knows of weight and buoyancy from the start. */
+static void first_change(struct sim *s)
+{
+    const struct grains *const g = &s->grains;
+    const double rho = s->coupling.buoyancy ? s->fluid.rho : 0.0;
+    for (int i = 0; i < g->n; i++) {
+        const vec3 dry = v3_sub(g->force[i], g->load[i]);
+        const vec3 force = v3_axpy(dry, g->mass[i] - rho * g->volume[i], s->domain.gravity);
+        s->coupling.vel_old[i] = v3_axpy(g->vel[i], -s->fluid.dt * g->inv_mass[i], force);
+    }
+}
+
 void coupling_volume(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
@@ -204,7 +217,7 @@ void coupling_volume(struct sim *s)
             f->eps[k] = 1.0;
     if (c->calls == 0) {
         memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
-        memcpy(c->vel_old, s->grains.vel, (size_t)s->grains.n * sizeof(vec3));
+        first_change(s);
     }
     for (int a = 0; a < 3; a++)
         grid_face_mean(g, &s->domain, f->eps, a, f->eps_f[a]);
