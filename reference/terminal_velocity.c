@@ -1,8 +1,8 @@
-/* reference/terminal_velocity.c - one grain falls through a fluid at rest.
+/* reference/terminal_velocity.c - one grain falls through a fluid at rest, or in uniform flow.
  *
- *   m dv/dt = (m - rho V) g - kappa(|v|) v,   kappa = 3 pi mu d Fhat(1, rho |v| d/mu)
+ *   m dv/dt = (m - rho V) g - kappa(|w|) w,   kappa = 3 pi mu d Fhat(1, rho |w| d/mu), w = v - u
  *
- * with the drag law of the run for eps = 1, integrated by an adaptive Runge-Kutta method of
+ * with the drag law of the run for eps = 1 and u the steady velocity at the inflow side, if any, integrated by an adaptive Runge-Kutta method of
  * order 8 [PrinceDormand81] from the velocity of the grain when the fluid sets in; without
  * buoyancy where the scene switches it off. The grain compared is the first of the scene. Its
  * terminal velocity is the root of the balance of forces; those of Stokes' [Stokes1851] and of
@@ -23,7 +23,7 @@ const struct about reference_about = {
         "velocity of one falling grain against the solution of its own equation of motion",
     .equation = "m dv/dt = (m - rho V) g - 3 pi mu d Fhat(1, Re) v",
     .source = "[Stokes1851]; [SchillerNaumann35]",
-    .range = "one grain in a fluid at rest"};
+    .range = "one grain in a fluid at rest, or in steady uniform flow from an inflow side"};
 const struct key reference_keys[] = {
     {"reference", "tolerance", KEY_REAL, "1", "(0, inf)", "0.1 %", "of the final velocity"},
     {0},
@@ -37,6 +37,7 @@ struct terminal_velocity {
     double mass, d, rho, mu;
     vec3 pull; /* N, weight less buoyancy */
     vec3 down; /* unit vector along it */
+    vec3 wind; /* m/s, of the fluid */
     bool started, ended;
     double t, v[3]; /* s, m/s: the exact solution, at the time of the last step */
     double speed;   /* m/s, simulated, along `down`, then */
@@ -124,12 +125,13 @@ static double terminal(struct terminal_velocity *p,
 static int acceleration(double t, const double v[], double dvdt[], void *params)
 {
     const struct terminal_velocity *const p = params;
-    const double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const vec3 w = v3_sub(v3(v[0], v[1], v[2]), p->wind);
+    const double speed = v3_norm(w);
     const double kappa = 3.0 * pi * p->mu * p->d * factor_run(p, p->rho * speed * p->d / p->mu);
     (void)t;
-    dvdt[0] = (p->pull.x - kappa * v[0]) / p->mass;
-    dvdt[1] = (p->pull.y - kappa * v[1]) / p->mass;
-    dvdt[2] = (p->pull.z - kappa * v[2]) / p->mass;
+    dvdt[0] = (p->pull.x - kappa * w.x) / p->mass;
+    dvdt[1] = (p->pull.y - kappa * w.y) / p->mass;
+    dvdt[2] = (p->pull.z - kappa * w.z) / p->mass;
     return GSL_SUCCESS;
 }
 
@@ -173,6 +175,12 @@ void reference_create(struct sim *s, struct scene *scene)
     const double buoyant = s->coupling.buoyancy ? p->rho * s->grains.volume[0] : 0.0;
     p->pull = v3_scale(p->mass - buoyant, s->domain.gravity);
     const double pull = v3_norm(p->pull);
+    for (int side = 0; side < 6; side++)
+        if (s->domain.side[side].kind == SIDE_INFLOW) {
+            const double in = (side % 2 ? -1.0 : 1.0) * s->flow.velocity;
+            p->wind = v3_add(p->wind, v3(side / 2 == 0 ? in : 0.0, side / 2 == 1 ? in : 0.0,
+                                         side / 2 == 2 ? in : 0.0));
+        }
     p->down = pull > 0.0 ? v3_scale(1.0 / pull, p->pull) : v3(0.0, 0.0, -1.0);
     p->system = (gsl_odeiv2_system){acceleration, NULL, 3, p};
     p->driver =

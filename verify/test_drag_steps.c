@@ -13,7 +13,8 @@ static const double d = 13e-6, rho_p = 2650.0, rho = 998.0, mu = 1.002e-3;
 static struct sim *silica(const char *drag, double dt, double depth)
 {
     char *const text = xprintf(
-        "[domain]\nsize = 800 800 1600 um\ncells = 4 4 8\nx = periodic\ny = periodic\nz- = slip\n"
+        "[domain]\nsize = 800 800 1600 um\ncells = 4 4 8\nx = periodic\ny = periodic\nz- = "
+        "slip\n"
         "z+ = outflow\n[fluid]\ndensity = %g kg/m3\nviscosity = %g Pa s\ndt = %.17g s\n"
         "[grains silica]\ndiameter = %g m\ndensity = %g kg/m3\nfill = random\ncount = 2000\n"
         "from = 0 0 %g um\n[coupling]\ndrag = %s\n[run]\nend = 1 s\nforce = on\n",
@@ -43,15 +44,17 @@ static void test_implicit(void)
         for (int t = 0; t < steps; t++)
             step(s);
         velocity[k] = mean_velocity(s);
-        check(s->ledger.handover_error < 1e-9, "  handed over but for %.1e", s->ledger.handover_error);
-        char *const what = xprintf("13 um silica, a step of %g s = %.3g relaxation times: m/s", dt[k],
-                                   dt[k] / tau);
+        check(s->ledger.handover_error < 1e-9, "  handed over but for %.1e",
+              s->ledger.handover_error);
+        char *const what = xprintf("13 um silica, a step of %g s = %.3g relaxation times: m/s",
+                                   dt[k], dt[k] / tau);
         check_rel(velocity[k], velocity[0], 0.02, what);
         xfree(what);
         sim_free(s);
     }
     const double alone = -(rho_p - rho) * 9.81 * d * d / (18.0 * mu);
-    printf("    %.4g m/s; one alone in endless water falls with %.4g m/s\n", velocity[0], alone);
+    printf("    %.4g m/s; one alone in endless water falls with %.4g m/s\n", velocity[0],
+           alone);
 }
 
 /* The relaxation as the program has it at this step. */
@@ -98,7 +101,8 @@ static void test_explicit(void)
     const double limit = 2.0 / relaxation(1.0);
     check(explicit_run(0.2 * limit, 100, &fine, words, sizeof words) == 0,
           "explicit drag at a fifth of its limit, %.3g s, runs", limit);
-    check(explicit_run(0.9 * limit, 100, &coarse, words, sizeof words) == 0, "  at nine tenths too");
+    check(explicit_run(0.9 * limit, 100, &coarse, words, sizeof words) == 0,
+          "  at nine tenths too");
     check_rel(coarse, fine, 0.02, "  to the same velocity, m/s");
     check(explicit_run(1.02 * limit, 100, &coarse, words, sizeof words) == EXIT_UNSTABLE &&
               strstr(words, "explicit drag is unstable"),
