@@ -21,6 +21,14 @@
 
 enum { DRAG_OWN = 6 };
 
+/* The numbers of a grain's shape that a law reads; a scene that gives others is refused. */
+enum drag_shape {
+    DRAG_SPHERICITY = 1,
+    DRAG_CROSSWISE = 2,
+    DRAG_LENGTHWISE = 4,
+    DRAG_CIRCULARITY = 8
+};
+
 /* A grain as the laws see it, one per species; of a sphere all four numbers of shape are 1. */
 struct drag_grain {
     double sphericity;    /* surface of the sphere of equal volume over its own, (0, 1] */
@@ -44,10 +52,10 @@ struct drag_point {
 /* Where a law holds, and what it asks for; a run counts the grains outside. */
 struct drag_limits {
     double eps_min, eps_max; /* fluid fraction */
-    double re_max;           /* of Re; INFINITY: no limit. None has a lower one: the laws keep
-                                their creeping limit below the data they were fitted to */
+    double re_min, re_max;   /* of Re; 0: it keeps its creeping limit below the data it was
+                                fitted to; INFINITY: no limit */
     bool per_solid;          /* re_max is of Re/(1 - eps) */
-    bool shape;              /* it reads the numbers of shape; others take grains for spheres */
+    unsigned shape;          /* sum of enum drag_shape; 0: it takes grains for spheres */
     bool sauter;             /* it reads y */
     double jump;             /* largest relative jump of Fhat in this range, 0: continuous */
     double isolated;         /* Fhat of a sphere at eps = 1 as Re -> 0; 0: the law has none */
@@ -78,7 +86,8 @@ static inline bool drag_outside(const struct drag_point *p)
 {
     const double re_max =
         drag_limits.per_solid ? drag_limits.re_max * (1.0 - p->eps) : drag_limits.re_max;
-    return p->eps < drag_limits.eps_min || p->eps > drag_limits.eps_max || p->re > re_max;
+    return p->eps < drag_limits.eps_min || p->eps > drag_limits.eps_max ||
+           p->re < drag_limits.re_min || p->re > re_max;
 }
 
 #endif

@@ -26,8 +26,11 @@ const struct about drag_about = {
     .source = "[HaiderLevenspiel89]",
     .range = "one grain on its own (eps above 0.99), sphericity 0.5 to 1 (best above 0.67), Re "
              "< 2.5e4"};
-const struct drag_limits drag_limits = {
-    .eps_min = 0.99, .eps_max = 1.0, .re_max = 2.5e4, .isolated = 1.0, .shape = true};
+const struct drag_limits drag_limits = {.eps_min = 0.99,
+                                        .eps_max = 1.0,
+                                        .re_max = 2.5e4,
+                                        .isolated = 1.0,
+                                        .shape = DRAG_SPHERICITY};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

@@ -25,8 +25,12 @@ const struct about drag_about = {
                 "(0.42/24) 10^{0.4 (-log10 Phi)^0.2} Re/Phi_c",
     .source = "[HoelzerSommerfeld08]",
     .range = "one grain on its own (eps above 0.99), Re < 1e5"};
-const struct drag_limits drag_limits = {
-    .eps_min = 0.99, .eps_max = 1.0, .re_max = 1e5, .isolated = 1.0, .shape = true};
+const struct drag_limits drag_limits = {.eps_min = 0.99,
+                                        .eps_max = 1.0,
+                                        .re_max = 1e5,
+                                        .isolated = 1.0,
+                                        .shape =
+                                            DRAG_SPHERICITY | DRAG_CROSSWISE | DRAG_LENGTHWISE};
 const struct key drag_keys[] = {{0}};
 
 void drag_init(struct scene *s)

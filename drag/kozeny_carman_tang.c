@@ -28,7 +28,7 @@ const struct drag_limits drag_limits = {.eps_min = 0.2,
                                         .eps_max = 0.7,
                                         .re_max = 1.0,
                                         .per_solid = true,
-                                        .shape = true,
+                                        .shape = DRAG_SPHERICITY,
                                         .sauter = true};
 const struct key drag_keys[] = {
     {"drag", "shape_factor", KEY_REAL, "1", "(0, inf)", "2.5", "C_S of the pores, 2 to 3"},

@@ -24,8 +24,9 @@ const struct about drag_about = {
     .range = "eps 0.4 to 1, 1 < Re < 1000"};
 const struct drag_limits drag_limits = {.eps_min = 0.4,
                                         .eps_max = 1.0,
+                                        .re_min = 1.0,
                                         .re_max = 1000.0,
-                                        .shape = true,
+                                        .shape = DRAG_SPHERICITY | DRAG_CIRCULARITY,
                                         .isolated = 0.9283314025971};
 const struct key drag_keys[] = {{0}};
 

@@ -17,18 +17,20 @@ const struct key drag_grains_keys[] = {
     {"grains", "lengthwise_sphericity", KEY_REAL, "1", SHAPE_AUTO, "auto",
      "section of that sphere over (half the grain's surface - mean area seen along the flow); "
      "auto: the crosswise one"},
-    {"grains", "circularity", KEY_REAL, "1", "[1, inf)", "1", "of its outline, for the drag"},
+    {"grains", "circularity", KEY_REAL, "1", "auto | [1, inf)", "auto",
+     "of its outline, for the drag; auto: 1"},
     {0},
 };
 
-/* The number of shape asked for, or `standard` for auto. A law that takes grains for spheres
- * refuses it: silence would be a wrong answer. */
+/* The number of shape asked for, or `standard` for auto. One that the law does not read is
+ * refused: silence would be a wrong answer. */
 static double shape_number(struct scene *scene, const char *species, const char *key,
-                           double standard)
+                           enum drag_shape which, double standard)
 {
-    if (!drag_limits.shape && scene_given(scene, "grains", species, key))
-        scene_error(scene, "grains", species, key, "drag = %s takes every grain for a sphere",
-                    drag_about.name);
+    if (!(drag_limits.shape & which) && scene_given(scene, "grains", species, key))
+        scene_error(scene, "grains", species, key, "drag = %s does not depend on it%s",
+                    drag_about.name,
+                    drag_limits.shape ? "" : ": it takes every grain for a sphere");
     if (scene_word(scene, "grains", species, key, "auto"))
         return standard;
     return scene_real(scene, "grains", species, key);
@@ -42,12 +44,14 @@ void drag_grains_read(struct sim *s, struct scene *scene)
     const int n = scene_names(scene, "grains", &names);
     g->kind = xalloc((size_t)n + 1, sizeof *g->kind);
     for (int k = 0; k < n; k++) {
+        const char *const name = names[k];
         struct drag_grain *const d = &g->kind[k];
-        d->sphericity = shape_number(scene, names[k], "sphericity", 1.0);
-        d->crosswise = shape_number(scene, names[k], "crosswise_sphericity", 1.0);
-        d->lengthwise = shape_number(scene, names[k], "lengthwise_sphericity", d->crosswise);
-        d->circularity = shape_number(scene, names[k], "circularity", 1.0);
-        d->density_ratio = scene_real(scene, "grains", names[k], "density") / s->fluid.rho;
+        d->sphericity = shape_number(scene, name, "sphericity", DRAG_SPHERICITY, 1.0);
+        d->crosswise = shape_number(scene, name, "crosswise_sphericity", DRAG_CROSSWISE, 1.0);
+        d->lengthwise =
+            shape_number(scene, name, "lengthwise_sphericity", DRAG_LENGTHWISE, d->crosswise);
+        d->circularity = shape_number(scene, name, "circularity", DRAG_CIRCULARITY, 1.0);
+        d->density_ratio = scene_real(scene, "grains", name, "density") / s->fluid.rho;
     }
 }
 

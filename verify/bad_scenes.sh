@@ -115,7 +115,7 @@ edit "cells zero" 's/^cells = 5 5 10/cells = 5 0 10/' "$bad:9: domain.cells = 5 
 edit "no cells" '/^cells/d' "domain.cells.*a scene with a fluid needs"
 edit "choice that is none" 's/^fill     = random/fill = rain/' "$bad:18: grains beads.fill = rain: must be one of lattice"
 edit "grains that cannot fit" 's/^count    = 50/count = 1000000/' "$bad:17: grains beads.count = 1000000: the grains fill .* % of their region"
-edit "a shape for a law of spheres" 's/^count    = 50/&\nsphericity = 0.8/' "$bad:18: grains beads.sphericity = 0.8: drag = ergun takes every grain for a sphere"
+edit "a shape for a law of spheres" 's/^count    = 50/&\nsphericity = 0.8/' "$bad:18: grains beads.sphericity = 0.8: drag = ergun does not depend on it: it takes every grain for a sphere"
 edit "grain wider than the box" 's/diameter = 1 mm/diameter = 25 mm/' "$bad:15: grains beads.diameter = 25 mm: is wider than the region"
 edit "periodic on one side" 's/^z-    = inflow/z- = periodic/' "$bad:12: domain.z- = periodic: periodic must hold for both sides"
 edit "side given twice" 's/^y     = periodic/&\ny- = wall/' "domain.y- = wall: contradicts domain.y"

@@ -91,7 +91,7 @@ static inline double law_permeability(const struct law *law, double eps, double 
 static inline bool law_holds(const struct law *law, double eps, double re)
 {
     const struct drag_limits *const l = &law->limits;
-    return eps >= l->eps_min && eps <= l->eps_max &&
+    return eps >= l->eps_min && eps <= l->eps_max && re >= l->re_min &&
            re <= (l->per_solid ? l->re_max * (1.0 - eps) : l->re_max);
 }
 
