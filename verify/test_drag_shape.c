@@ -25,7 +25,8 @@ int main(void)
         const int i = grain_at(s, id);
         const double creeping = 1.0 / sqrt(lengthwise[id]) + 2.0 / sqrt(sphericity[id]);
         const double eps = 1.0 - PI / 6.0 * d * d * d / 27e-9;
-        check_rel(c->drag_of.kind[id].lengthwise, lengthwise[id], 1e-15, "lengthwise sphericity");
+        check_rel(c->drag_of.kind[id].lengthwise, lengthwise[id], 1e-15,
+                  "lengthwise sphericity");
         check_rel(c->part[(size_t)i * (size_t)c->reach], PI * mu * d * eps * creeping, 1e-12,
                   "drag of a fluid at rest over slip, kg/s");
     }
