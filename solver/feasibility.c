@@ -206,7 +206,8 @@ void feasibility_enforce(const struct sim *s, struct scene *scene, const struct 
     for (int i = 0; i < f->n; i++) {
         if (!f->line[i].binding || !(f->line[i].used > f->line[i].limit * (1.0 + 1e-9)))
             continue;
-        const bool grains = i < f->n && f->line[i].used == s->run.dt;
+        const bool moving = s->grains.n > s->grains.n_frozen || !s->fluid.exists;
+        const bool grains = moving && f->line[i].used == s->run.dt;
         scene_error(
             scene, grains ? "run" : "fluid", NULL, "dt",
             "%s allows %.4g %s at most, %.4g is used (run.force = on runs it all the same)",

@@ -143,6 +143,27 @@ void fluid_velocity_sides(struct sim *s, double t)
     }
 }
 
+void fluid_ghosts_nearest(const struct sim *s, int a, double *u)
+{
+    const struct grid *const g = &s->grid;
+    for (int k = 1; k <= g->n[beside(a, 1)]; k++)
+        for (int j = 1; j <= g->n[beside(a, 0)]; j++) {
+            const bool wrap = s->domain.periodic[a];
+            if (wrap)
+                u[at_layer(g, a, g->n[a] + 1, j, k)] = u[at_layer(g, a, 1, j, k)];
+            u[at_layer(g, a, 0, j, k)] = u[at_layer(g, a, wrap ? g->n[a] : 1, j, k)];
+        }
+    for (int b = 0; b < 3; b++) {
+        const int n = g->n[b];
+        for (int k = 0; b != a && k <= g->n[beside(b, 1)] + 1; k++)
+            for (int j = 0; j <= g->n[beside(b, 0)] + 1; j++)
+                for (int end = 0; end < 2; end++) {
+                    const int from = (end == 0) == s->domain.periodic[b] ? n : 1;
+                    u[at_layer(g, b, end ? n + 1 : 0, j, k)] = u[at_layer(g, b, from, j, k)];
+                }
+    }
+}
+
 void fluid_ghosts_of_change(const struct sim *s, int a, double *du)
 {
     const struct grid *const g = &s->grid;

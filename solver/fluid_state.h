@@ -46,6 +46,9 @@ void fluid_velocity_sides(struct sim *s, double t);
 /* The same for a change of component a where nothing that is given changes. */
 void fluid_ghosts_of_change(const struct sim *s, int a, double *du);
 
+/* Ghosts of any face field of direction a: periodic copies, else the nearest value. */
+void fluid_ghosts_nearest(const struct sim *s, int a, double *u);
+
 /* dp/dx_a on face c of an open side (end 0: low, 1: high), half a cell from p = 0. */
 static inline double fluid_gradient(const struct sim *s, const double *p, int a, int end, int c)
 {

@@ -13,6 +13,7 @@
 #include "fill.h"
 #include "log.h"
 #include "output.h"
+#include "probes.h"
 #include "progress.h"
 #include "provenance_info.h"
 #include "settle.h"
@@ -138,6 +139,7 @@ static int advance(struct sim *s)
     progress_start(&progress, 0.0, s->run.end, "running");
     while (s->t < end && !s->run.done && !caught) {
         step(s);
+        probes_watch(s);
         reference_watch(s);
         const double clock = wall_clock(), slack = 1e-9 * s->run.end;
         if (s->t >= next_sample - slack) {
@@ -184,6 +186,7 @@ static int run(struct sim *s, struct scene *scene)
     const int code = advance(s);
     output_fields(s);
     ledger_report(s);
+    probes_report(s);
     reference_report(s);
     summarise(s, begin);
     output_close(s);

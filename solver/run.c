@@ -28,6 +28,9 @@ const struct key run_keys[] = {
      "time between outputs of grains and fields; ends: first and last only"},
     {"output", "series", KEY_REAL, "s", "auto | (0, inf)", "auto",
      "time between samples of the time series; auto: 500 samples"},
+    {"output", "slice", KEY_CHOICE, "", "auto | x | y | z | off", "auto",
+     "across which axis pictures of the fluid are cut; auto: a thin direction, else y"},
+    {"output", "slice_at", KEY_REAL, "m", "middle | [0, inf)", "middle", "where they are cut"},
     {0},
 };
 
@@ -47,6 +50,9 @@ void run_read(struct sim *s, struct scene *scene)
     r->output_every = scene_word(scene, "output", NULL, "every", "ends")
                           ? (double)INFINITY
                           : scene_real(scene, "output", NULL, "every");
+    scene_choice(scene, "output", NULL, "slice"); /* for the pictures: read from run.nc */
+    if (!scene_word(scene, "output", NULL, "slice_at", "middle"))
+        scene_real(scene, "output", NULL, "slice_at");
     r->series_every = scene_word(scene, "output", NULL, "series", "auto")
                           ? r->end / 500.0
                           : scene_real(scene, "output", NULL, "series");

@@ -5,6 +5,7 @@
 #include "contact_loop.h"
 #include "feasibility.h"
 #include "modules.h"
+#include "probes.h"
 #include "motion.h"
 #include "run.h"
 
@@ -24,6 +25,7 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     contact_create(s, scene);
     fluid_create(s, scene);
     run_steps(s, scene);
+    probes_create(s, scene);
     reference_create(s, scene);
     if (scene_errors(scene) == 0) {
         neighbours_check(s, scene);
@@ -52,6 +54,7 @@ void sim_start(struct sim *s)
 void sim_free(struct sim *s)
 {
     reference_free(s);
+    probes_free(s);
     fluid_free(s);
     contact_free(s);
     neighbours_free(s);

@@ -17,6 +17,7 @@
 #include "timers.h"
 #include "walls.h"
 
+struct probes;       /* what is measured of the fluid */
 struct contact_work; /* scratch of the contact loop */
 
 struct run {
@@ -58,9 +59,10 @@ struct sim {
     struct series series;
     struct tables tables;
     struct summary summary;
-    long substep;    /* grain steps since the start, settling included */
-    double overlap;  /* largest overlap over the smaller radius at the last step */
-    double elastic;  /* J in the springs of the contacts, when last asked for */
+    long substep;   /* grain steps since the start, settling included */
+    double overlap; /* largest overlap over the smaller radius at the last step */
+    double elastic; /* J in the springs of the contacts, when last asked for */
+    struct probes *probes;
     void *reference; /* state of the reference answer */
 };
 

@@ -18,6 +18,7 @@
 #include "../solver/flow.h"
 #include "../solver/force_names.h"
 #include "../solver/grains.h"
+#include "../solver/probes.h"
 #include "../solver/run.h"
 #include "../solver/walls.h"
 
@@ -282,6 +283,7 @@ static int print_keys(const char *program)
     keys_print(stdout, "\nwalls", wall_keys);
     keys_print(stdout, "\nwith a fluid", flow_keys);
     keys_print(stdout, "", coupling_keys);
+    keys_print(stdout, "", probe_keys);
     keys_print(stdout, "", drag_grains_keys);
     visit_answers(program, print_answer_keys);
     return EXIT_GOOD;
