@@ -9,7 +9,7 @@
 #include <string.h>
 #include "units.h"
 
-enum { ARROWS = 26, LEFT = 95, RIGHT = 125, TOP = 80, BOTTOM = 80 };
+enum { ARROWS = 26, LEFT = 95, RIGHT = 165, TOP = 80, BOTTOM = 80 };
 
 struct slice {
     size_t n[3], times;
