@@ -253,6 +253,30 @@ static void print_own_cell(const struct figure_law *const *sorted, int n)
     }
 }
 
+/* The review reads its Figure 15 so: Koch and Hill's law is best below Re = 40, Ergun's with Wen
+ * and Yu's (gidaspow) best above, Di Felice's worst on both sides. */
+static void print_reading(void)
+{
+    static const char *const of_review[] = {"gidaspow", "di_felice", "koch_hill",
+                                            "koch_hill_linear"};
+    printf("  of the review's laws");
+    for (int above = 0; above < 2; above++) {
+        const struct figure_law *best = NULL, *worst = NULL;
+        for (int k = 0; k < n_laws; k++)
+            for (int i = 0; i < 4; i++)
+                if (strcmp(laws[k].law.name, of_review[i]) == 0) {
+                    if (!best || laws[k].own_cell[0][above] < best->own_cell[0][above])
+                        best = &laws[k];
+                    if (!worst || laws[k].own_cell[0][above] > worst->own_cell[0][above])
+                        worst = &laws[k];
+                }
+        if (best)
+            printf("%s %s Re = 40: %s is best, %s worst", above ? ";" : "",
+                   above ? "above" : "below", best->law.name, worst->law.name);
+    }
+    putchar('\n');
+}
+
 static void print_table(void)
 {
     const struct figure_law *sorted[LAWS];
@@ -276,6 +300,7 @@ static void print_table(void)
         if (isnan(laws[k].re[0]))
             printf(" %s", laws[k].law.name);
     putchar('\n');
+    print_reading();
     print_own_cell(sorted, n);
 }
 
