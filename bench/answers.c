@@ -5,6 +5,9 @@
  *
  * To add a slot: write a function that times one answer, like drag_cost, and add it to the list. */
 #include <math.h>
+#include "../solver/diffuse.h"
+#include "../solver/grains.h"
+#include "../solver/spread.h"
 #include "../verify/drag_laws.h"
 
 enum { ANSWERS = 64, ROUNDS = 15, POINTS = 4096, PASSES = 8 };
@@ -73,10 +76,95 @@ static void drag_cost(const char *name, void *answer)
     time_answer(name, drag_work, &law, POINTS * PASSES);
 }
 
+/* An answer of porosity/ and a box of CELLS^3 cells of two diameters, four grains to a cell. */
+enum { CELLS = 16, GRAINS = 4 * CELLS * CELLS * CELLS };
+
+struct spreading {
+    int (*shares)(const struct grid *g, const struct domain *d, const struct grains *grains,
+                  int i, struct share *out);
+    struct domain domain;
+    struct grid grid;
+    struct grains grains;
+    struct spread spread;
+    struct diffuse *diffuse;
+    int reach, *n_shares;
+    struct share *share;
+    double *field;
+};
+
+/* Shares of all grains, their volume on the grid, diffused. */
+static double porosity_work(void *of)
+{
+    struct spreading *const s = of;
+    for (int i = 0; i < GRAINS; i++)
+        s->n_shares[i] =
+            s->shares(&s->grid, &s->domain, &s->grains, i, &s->share[(size_t)i * s->reach]);
+    spread_prepare(&s->spread, GRAINS, s->reach, s->n_shares, s->share);
+    spread_one(&s->spread, s->grains.volume, s->field);
+    if (s->diffuse)
+        diffuse_apply(s->diffuse, s->field);
+    return s->field[cell(&s->grid, 1, 1, 1)];
+}
+
+/* Grains in the order of their cells, as a run keeps them. */
+static void place_grains(struct spreading *s)
+{
+    s->grains.pos = xalloc(GRAINS, sizeof *s->grains.pos);
+    s->grains.radius = xalloc(GRAINS, sizeof *s->grains.radius);
+    s->grains.volume = xalloc(GRAINS, sizeof *s->grains.volume);
+    for (int i = 0; i < GRAINS; i++) {
+        const int c = i / 4;
+        const double h = s->grid.h[0];
+        s->grains.pos[i] = v3((c % CELLS + fmod(0.6180339887 * (i + 1), 1.0)) * h,
+                              (c / CELLS % CELLS + fmod(0.7548776662 * (i + 1), 1.0)) * h,
+                              (c / (CELLS * CELLS) + fmod(0.5698402910 * (i + 1), 1.0)) * h);
+        s->grains.radius[i] = 0.25 * h;
+        s->grains.volume[i] = 1.0;
+    }
+}
+
+static void porosity_cost(const char *name, void *answer)
+{
+    void (*init)(struct scene *);
+    int (*reach)(const struct grid *, double);
+    double (*width)(double);
+    const struct key *keys;
+    struct spreading s = {.domain = {.size = {1.0, 1.0, 1.0}, .cells = {CELLS, CELLS, CELLS}}};
+    if (!answers_symbol(answer, "porosity_shares", &s.shares, sizeof s.shares) ||
+        !answers_symbol(answer, "porosity_init", &init, sizeof init) ||
+        !answers_symbol(answer, "porosity_reach", &reach, sizeof reach) ||
+        !answers_symbol(answer, "porosity_width", &width, sizeof width) ||
+        !answers_symbol(answer, "porosity_keys", &keys, sizeof keys))
+        return;
+    struct scene *const scene = scene_load(NULL, 0, NULL);
+    scene_declare(scene, keys);
+    init(scene);
+    scene_free(scene);
+    grid_create(&s.grid, &s.domain);
+    place_grains(&s);
+    s.reach = reach(&s.grid, s.grains.radius[0]);
+    s.n_shares = xalloc(GRAINS, sizeof *s.n_shares);
+    s.share = xalloc((size_t)GRAINS * s.reach, sizeof *s.share);
+    s.field = grid_field(&s.grid);
+    spread_create(&s.spread, &s.grid);
+    if (width(s.grains.radius[0]) > 0.0)
+        s.diffuse = diffuse_create(&s.grid, &s.domain, width(s.grains.radius[0]));
+    time_answer(name, porosity_work, &s, GRAINS);
+    void *const all[] = {s.grains.pos, s.grains.radius, s.grains.volume,
+                         s.n_shares,   s.share,         s.field};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        xfree(all[i]);
+    spread_free(&s.spread);
+    diffuse_free(s.diffuse);
+}
+
 static const struct {
     const char *folder, *what;
     void (*cost)(const char *name, void *answer);
-} slots[] = {{"drag", "ns per grain and cell it has a share of", drag_cost}};
+} slots[] = {{"drag", "ns per grain and cell it has a share of", drag_cost},
+             {"porosity",
+              "ns per grain: shares, sum and diffusion; cells of 2 d, 4 grains each",
+              porosity_cost}};
 
 /* Cheapest first; `none` is no measure for the others. */
 static void print_costs(const char *folder, const char *what)

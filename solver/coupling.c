@@ -56,6 +56,10 @@ void coupling_create(struct sim *s)
     c->drag = xalloc(n, sizeof *c->drag);
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);
+    c->coupled = xalloc(n, sizeof *c->coupled);
+    fields_add(&s->fields,
+               (struct field){"coupled", "1", "it has felt the fluid before", PLACE_GRAIN,
+                              KIND_INT, (void **)&c->coupled, FIELD_STATE});
     c->eps = grid_field(&s->grid);
     drag_grains_create(s);
     forces_create(s);
@@ -96,6 +100,7 @@ void coupling_free(struct sim *s)
                          c->drag,     c->vel_old, c->pos_load, c->eps,    c->slack};
     drag_grains_free(s);
     forces_free(s);
+    xfree(c->coupled);
     spread_free(&c->spread);
     diffuse_free(c->diffuse);
     if (c->eps_seen != c->eps)
@@ -181,17 +186,15 @@ static void sense_squares(struct sim *s)
     }
 }
 
-/* Before the first fluid step: the change of velocity that the forces at hand would make in one, so
- * that implicit drag knows of weight and buoyancy from the start. */
-static void first_change(struct sim *s)
+/* A grain that the fluid has not acted on yet: the change of velocity that the forces at hand would
+ * make in a step, so that implicit drag knows of weight and buoyancy from the start. */
+static void first_change(struct sim *s, int i)
 {
     const struct grains *const g = &s->grains;
     const double rho = s->coupling.buoyancy ? s->fluid.rho : 0.0;
-    for (int i = 0; i < g->n; i++) {
-        const vec3 dry = v3_sub(g->force[i], g->load[i]);
-        const vec3 force = v3_axpy(dry, g->mass[i] - rho * g->volume[i], s->domain.gravity);
-        s->coupling.vel_old[i] = v3_axpy(g->vel[i], -s->fluid.dt * g->inv_mass[i], force);
-    }
+    const vec3 dry = v3_sub(g->force[i], g->load[i]);
+    const vec3 force = v3_axpy(dry, g->mass[i] - rho * g->volume[i], s->domain.gravity);
+    s->coupling.vel_old[i] = v3_axpy(g->vel[i], -s->fluid.dt * g->inv_mass[i], force);
 }
 
 void coupling_volume(struct sim *s)
@@ -200,9 +203,12 @@ void coupling_volume(struct sim *s)
     struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
 #pragma omp parallel for schedule(dynamic, 64)
-    for (int i = 0; i < s->grains.n; i++)
+    for (int i = 0; i < s->grains.n; i++) {
         c->n_shares[i] =
             porosity_shares(g, &s->domain, &s->grains, i, &c->shares[(size_t)i * c->reach]);
+        if (!c->coupled[i])
+            first_change(s, i);
+    }
     spread_prepare(&c->spread, s->grains.n, c->reach, c->n_shares, c->shares);
     spread_one(&c->spread, s->grains.volume, c->K[0]);
     if (c->diffuse)
@@ -217,7 +223,6 @@ void coupling_volume(struct sim *s)
             f->eps[k] = 1.0;
     if (c->calls == 0) {
         memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
-        first_change(s);
     }
     for (int a = 0; a < 3; a++)
         grid_face_mean(g, &s->domain, f->eps, a, f->eps_f[a]);

@@ -60,6 +60,7 @@ struct coupling {
     vec3 *slack;       /* 1/(1 + theta) per direction: kappa' over kappa */
     vec3 *drag;        /* N per grain, the last drag force (a grain field) */
     vec3 *vel_old;     /* m/s at the last fluid step (a grain field) */
+    int *coupled;      /* 1 once the grain has felt the fluid; newcomers: 0 (a grain field) */
     vec3 *pos_load;    /* m at the last fluid step (a grain field), for the ledger's work */
     vec3 *v_ref;       /* m/s, v' */
     double *u_drag[3]; /* m/s on faces, superficial, at which kappa was taken (state) */

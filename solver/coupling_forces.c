@@ -272,6 +272,7 @@ void coupling_load(struct sim *s)
         g->load[i] = load;
         c->vel_old[i] = g->vel[i];
         c->pos_load[i] = g->pos[i];
+        c->coupled[i] = 1;
         /* not needed any more: kept for the sum below */
         c->v_ref[i] = c->forces.any ? v3_add(exchanged, c->forces.given[i]) : exchanged;
     }

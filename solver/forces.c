@@ -161,8 +161,7 @@ static vec3 implicit_torque(const struct sim *s, int i, double rate, vec3 curl)
     const double per_inertia = s->fluid.dt * g->inv_inertia[i];
     const vec3 turned = v3_sub(g->spin[i], s->coupling.forces.spin_old[i]);
     vec3 spin = g->spin[i];
-    if (s->coupling.calls > 0)
-        spin = v3_axpy(v3_add(spin, turned), -per_inertia, g->load_torque[i]);
+    spin = v3_axpy(v3_add(spin, turned), -per_inertia, g->load_torque[i]);
     return v3_scale(rate / (1.0 + per_inertia * rate),
                     v3_axpy(v3_scale(-1.0, spin), 0.5, curl));
 }
@@ -173,6 +172,8 @@ static void sense_grain(struct sim *s, int i)
     struct fluid_forces *const o = &s->coupling.forces;
     const struct grains *const g = &s->grains;
     const struct force_view v = view(s, i);
+    if (!s->coupling.coupled[i])
+        o->spin_old[i] = g->spin[i];
     const double added = o->added * v.rho * g->volume[i];
     double rate = 0.0;
     vec3 force = v3(0.0, 0.0, 0.0), given = force;
@@ -185,7 +186,7 @@ static void sense_grain(struct sim *s, int i)
         force = v3_add(force, more);
         given = v3_axpy(given, forces[f]->returned ? 1.0 : 0.0, more);
     }
-    if (added > 0.0 && s->coupling.calls > 0) {
+    if (added > 0.0 && s->coupling.coupled[i]) {
         const vec3 dv = v3_sub(g->vel[i], s->coupling.vel_old[i]);
         given = v3_add(given, v3_axpy(o->pulled[i], -added / v.dt, dv));
     }
@@ -206,7 +207,6 @@ void forces_sense(struct sim *s)
     if (s->coupling.calls == 0) {
         for (int a = 0; a < 3; a++)
             memcpy(o->u_old[a], o->u[a], s->grid.total * sizeof(double));
-        memcpy(o->spin_old, s->grains.spin, (size_t)s->grains.n * sizeof(vec3));
     }
     diffuse_three(s, o->u);
     diffuse_three(s, o->curl);

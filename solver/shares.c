@@ -14,9 +14,12 @@ static const double beyond_all = -2.0; /* radii: a plane that cuts nothing off *
 enum { PLANES_MOST = 16 }; /* per direction, for the tables of pairs */
 
 /* Interior index 1..n of interval i, counted from 0 at the low side and on beyond the box. */
-static int fold(const struct grid *g, const struct domain *d, int axis, int i)
+static inline int fold(const struct grid *g, const struct domain *d, int axis, int i)
 {
-    const int n = g->n[axis], period = d->periodic[axis] ? n : 2 * n;
+    const int n = g->n[axis];
+    if (i >= 0 && i < n)
+        return 1 + i;
+    const int period = d->periodic[axis] ? n : 2 * n;
     const int rest = i % period, m = rest < 0 ? rest + period : rest;
     return 1 + (m < n ? m : period - 1 - m);
 }
