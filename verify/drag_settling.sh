@@ -41,7 +41,7 @@ for source in drag/*.c; do
     grep -q '\.isolated = ' "$source" || continue
     # long enough for the terminal velocity: a fall of 24 relaxation times
     fall "$law" modules.drag="$law" "run.end=20 ms"
-    if grep -q '\.shape = ' "$source"; then
+    if grep -q '\.shape' "$source"; then
         fall "$law, sphericity 0.7" modules.drag="$law" "run.end=20 ms" \
             "grains bead.sphericity=0.7"
     fi
