@@ -12,9 +12,9 @@
  * torque, and rotation. Twisting has no leading term.
  *
  * 1/h and L are counted from their values at the range, so that the force sets in from zero. Below
- * gap_min (roughness), and in contact, the film is that at gap_min. A coefficient c acts as c/(1 +
- * c dt/m*): no film throws grains apart, however long the step. The drag of the mean flow comes on
- * top. */
+ * gap_min (roughness), and in contact, the film is that at gap_min. A coefficient c acts as
+ * m/(4 dt) at most, with the reduced mass m: no film throws grains apart, however long the step;
+ * stiffer films than that want a shorter step. The drag of the mean flow comes on top. */
 #include "lubrication.h"
 
 #include "../spring.h"
@@ -58,10 +58,12 @@ void lubrication_init(struct scene *s, const struct materials *m)
     shear = scene_choice(s, "lubrication", NULL, "shear") == 0 ? 1.0 : 0.0;
 }
 
-/* What brakes velocity v of mass m, by coefficient c, without turning it round. */
-SPRING_INLINE real bounded(real c, real dt_over_m)
+/* A dashpot may take a quarter of the relative velocity in a step at most: several films act on a
+ * grain. */
+SPRING_INLINE real bounded(real c, real m_over_dt)
 {
-    return c / (1.0 + c * dt_over_m);
+    const real most = 0.25 * m_over_dt;
+    return c < most ? c : most;
 }
 
 /* ln(range/gap); a loop of its own, since the logarithm is a call. */
@@ -85,14 +87,14 @@ void lubrication_forces(struct touch *t, real (*history)[TOUCH])
         const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real r = t->r_eff[c], gap = -t->depth[c] > gap_min ? -t->depth[c] : gap_min;
         const bool plane = !(t->r_j[c] > 0.0), on = gap < gap_max;
-        const real inv_sum = 1.0 / (t->r_i[c] + t->r_j[c]), slow = dt / t->m_eff[c];
+        const real inv_sum = 1.0 / (t->r_i[c] + t->r_j[c]), rate = t->m_eff[c] / dt;
         const real lambda = plane ? 0.0 : r * inv_sum;
         const real kappa = plane ? -1.0 : (t->r_i[c] - t->r_j[c]) * inv_sum;
         const real squeeze = r * (1.0 / gap - 1.0 / gap_max) + (0.2 + lambda) * film[c];
-        const real cn = on ? bounded(viscous * r * squeeze, slow) : 0.0;
+        const real cn = on ? bounded(viscous * r * squeeze, rate) : 0.0;
         const real side = shear * viscous * r * film[c];
         /* sliding and rolling, as one coefficient that bounds both */
-        const real ct = on ? bounded(side, slow * 4.0) : 0.0;
+        const real ct = on ? bounded(side, 0.25 * rate) : 0.0;
         const struct arrow u = arrow_axpy(arrow_scale(kappa, v), -2.0 * r, arrow_cross(w, n));
         struct arrow f = arrow_scale(-ct * (1.0 / 3.0), v);
         f = arrow_axpy(f, -ct * 0.2 * kappa, u);

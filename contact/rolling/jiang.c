@@ -5,7 +5,7 @@
  *   R = beta 2 r_i r_j/(r_i + r_j), the contact radius (twice r_i against a plane)
  * with w_r the relative spin in the plane of contact and w_t about the normal, k_n the secant
  * normal stiffness. The review prints the limits without the sign of what they limit, and M_r
- * where M_t is compared. Published without dashpots; rolling.damping adds them (below the limits),
+ * where M_t is compared. Published without dashpots; rolling.damping adds them (within the limits),
  * by default so that what is held comes to rest. Where k_n falls the springs are eased with it, so
  * that no energy is made. */
 #include "rolling.h"
@@ -34,7 +34,7 @@ const struct key rolling_keys[] = {
     {"rolling", "shear_ratio", KEY_REAL, "1", "[0, inf)", "0.6666666666666667",
      "k_s/k_n, tangential over normal stiffness, for twisting"},
     {"rolling", "damping", KEY_REAL, "1", "[0, inf)", "0.3",
-     "damping ratio of dashpots beside the springs, below the limits; 0 as published"},
+     "damping ratio of dashpots beside the springs, within the limits; 0 as published"},
     {0},
 };
 
@@ -88,12 +88,16 @@ void rolling_moments(struct touch *t, real (*history)[TOUCH])
         const real keep = kn < k_old[c] ? kn / k_old[c] : 1.0;
         const real k_r = 0.25 * kn * radius * radius;
         const real damping = 2.0 * eta * sqrt(t->inertia[c] * k_r);
-        const struct rolling_spring of_roll = {
-            .stiffness = k_r, .keep = keep, .damping = damping, .limit = k[ROLL][c] * capacity};
+        const struct rolling_spring of_roll = {.stiffness = k_r,
+                                               .keep = keep,
+                                               .damping = damping,
+                                               .limit = k[ROLL][c] * capacity,
+                                               .whole = true};
         const struct rolling_spring of_twist = {.stiffness = half_ratio * kn * radius * radius,
                                                 .keep = keep,
                                                 .damping = root_ratio * damping,
-                                                .limit = k[TWIST][c] * capacity};
+                                                .limit = k[TWIST][c] * capacity,
+                                                .whole = true};
         const struct rolled r =
             rolling_spring(of_roll, (struct arrow){hx[c], hy[c], hz[c]}, n, roll, dt);
         const struct twisted o = twisting_spring(of_twist, twist[c], arrow_dot(w, n), dt);

@@ -37,7 +37,7 @@ const struct key rolling_keys[] = {
     {"pair", "torsion_stiffness", KEY_REAL, "N m", "mixed | [0, inf)", "mixed",
      "torsion stiffness of a contact"},
     {"rolling", "damping", KEY_REAL, "1", "[0, inf)", "0",
-     "damping ratio of dashpots beside the springs, below the limits; 0 as published"},
+     "damping ratio of dashpots beside the springs, within the limits; 0 as published"},
     {0},
 };
 
@@ -93,11 +93,13 @@ void rolling_moments(struct touch *t, real (*history)[TOUCH])
         const struct rolling_spring of_roll = {.stiffness = k[K_R][c],
                                                .keep = 1.0,
                                                .damping = damping * k[ROOT_R][c],
-                                               .limit = k[MU_R][c] * capacity};
+                                               .limit = k[MU_R][c] * capacity,
+                                               .whole = true};
         const struct rolling_spring of_twist = {.stiffness = k[K_T][c],
                                                 .keep = 1.0,
                                                 .damping = damping * k[ROOT_T][c],
-                                                .limit = k[MU_T][c] * capacity};
+                                                .limit = k[MU_T][c] * capacity,
+                                                .whole = true};
         const struct rolled r =
             rolling_spring(of_roll, (struct arrow){hx[c], hy[c], hz[c]}, n, roll, dt);
         const struct twisted o = twisting_spring(of_twist, twist[c], arrow_dot(w, n), dt);

@@ -12,6 +12,7 @@ struct rolling_spring {
     real damping;   /* N m s, of the dashpot beside the spring */
     real plastic;   /* part of the dashpot that acts at the limit */
     real limit;     /* N m */
+    bool whole;     /* the limit is that of spring and dashpot together, not of the spring */
 };
 
 struct rolled {
@@ -30,7 +31,12 @@ SPRING_INLINE struct rolled rolling_spring(struct rolling_spring k, struct arrow
     const bool full = size >= k.limit;
     const struct arrow spring = arrow_scale(size > k.limit ? k.limit / size : 1.0, to);
     const real damping = full ? k.plastic * k.damping : k.damping;
-    return (struct rolled){.moment = arrow_axpy(spring, -damping, roll), .held = spring};
+    const struct arrow both = arrow_axpy(spring, -damping, roll);
+    if (!k.whole)
+        return (struct rolled){.moment = both, .held = spring};
+    const real all = sqrt(arrow_dot(both, both));
+    return (struct rolled){.moment = arrow_scale(all > k.limit ? k.limit / all : 1.0, both),
+                           .held = spring};
 }
 
 struct twisted {
@@ -45,7 +51,10 @@ SPRING_INLINE struct twisted twisting_spring(struct rolling_spring k, real held,
     const real low = to < -k.limit ? -k.limit : to, spring = low > k.limit ? k.limit : low;
     const bool full = to >= k.limit || to <= -k.limit;
     const real damping = full ? k.plastic * k.damping : k.damping;
-    return (struct twisted){.moment = spring - damping * twist, .held = spring};
+    const real both = spring - damping * twist;
+    const real lower = both < -k.limit ? -k.limit : both;
+    return (struct twisted){.moment = k.whole ? (lower > k.limit ? k.limit : lower) : both,
+                            .held = spring};
 }
 
 #endif
