@@ -31,3 +31,7 @@ for j in 1 $(nproc); do
     OMP_NUM_THREADS=$j build/release/bench/kernels
 done
 OMP_NUM_THREADS=1 build/release/bench/answers
+make -s build/release/bench/fluid
+for j in 1 $(nproc); do
+    OMP_NUM_THREADS=$j GOMP_SPINCOUNT=1000 build/release/bench/fluid
+done

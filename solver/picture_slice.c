@@ -242,7 +242,8 @@ static void draw_cells(const struct run_file *r, const struct slice *f, const ch
                 at[f->up] = k;
                 value[k * f->n[f->across] + j] = all[cell_at(f, at)];
             }
-        draw_slice(r, f, l, value);
+        if (max_abs(value, f->n[f->across] * f->n[f->up]) > 0.0) /* else there is none */
+            draw_slice(r, f, l, value);
         xfree(value);
     }
     xfree(all);

@@ -50,6 +50,19 @@ run darcy scenes/darcy_column.ini
 verdict $? "darcy_column.ini runs"
 grep -q '^verdict = pass' "$tmp/darcy/summary.txt"
 verdict $? "darcy_column.ini: on the exact layered solution to 1e-6"
+run channel scenes/channel.ini
+verdict $? "channel.ini runs"
+grep -q '^verdict = pass' "$tmp/channel/summary.txt" && grep -q '^drop_drop = .* Pa' "$tmp/channel/summary.txt"
+verdict $? "channel.ini: the profile on its parabola, the probe in the summary"
+run cavity scenes/lid_cavity.ini "domain.cells=32 32 1" "fluid.dt=10 ms" reference.tolerance=0.01
+verdict $? "lid_cavity.ini in short form runs"
+grep -q '^verdict = pass' "$tmp/cavity/summary.txt"
+verdict $? "lid_cavity.ini: on the converged centre lines, $(value "$tmp/cavity" cavity_error)"
+run carried scenes/settling.ini modules.fluid=prescribed modules.reference=none fluid.field=file \
+    "fluid.file=$tmp/settling/run.nc"
+verdict $? "a flow from the run.nc of another run carries a grain"
+! ldd "$(make -s $(build/release/front slots scenes/settling.ini modules.fluid=prescribed modules.reference=none) where)" | grep -q fftw
+verdict $? "its binary links no FFTW"
 short=("domain.size=12.25 12.25 40 mm" "domain.cells=3 3 24" "grains beads.count=2000" flow.steps=6 "run.end=0.18 s")
 run bed scenes/packed_bed.ini "${short[@]}"
 verdict $? "packed_bed.ini in short form runs"
@@ -63,7 +76,8 @@ for s in settling bounce bed; do
     grep -q '^ledger = closes' "$tmp/$s/summary.txt"
     verdict $? "$s: the ledger closes"
 done
-for f in bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png; do
+for f in bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png \
+    channel/velocity.png channel/pressure.png cavity/vertical.png bed/porosity.png; do
     [ -s "$tmp/$f" ]
     verdict $? "$f is drawn"
 done

@@ -3,6 +3,7 @@
 # build/verify.txt. Takes some minutes.
 #   the shipped scenes against their references
 #   a bed of uniform porosity: the drag law's pressure drop, two laws, two solvers
+#   lid-driven cavities; the noise of the pressure when a grain crosses faces of cells
 #   every law of drag: its terminal velocity, its error against measured ones, its picture
 #   pressure noise and self-disturbance of every porosity answer (coupling.sh)
 set -uo pipefail
@@ -42,6 +43,12 @@ value() {
     done
     echo
     verify/coupling.sh || bad=1
+    echo
+    echo "Lid-driven cavity, 128 x 128 cells, against converged values (1 % of the lid's velocity)"
+    verify/cavity.sh || bad=1
+    echo
+    echo "Noise of the pressure, Pa, while one grain crosses faces of cells (verify/porosity_rate.sh)"
+    verify/porosity_rate.sh || bad=1
     echo
     echo "Every law of drag with an isolated sphere comes to its own terminal velocity, one-way"
     verify/drag_settling.sh || bad=1
