@@ -239,6 +239,7 @@ int main(int argc, char **argv)
     verbs("van_leer", CONVECTION_VAN_LEER);
     printf(" porosity from 0.35 to 1, without sensing grains\n");
     porous("form a, centred, tolerance 1e-6", "convection = centred\ntolerance = 1e-6\n");
+    porous("form a, centred, tolerance 0.1", "convection = centred\ntolerance = 0.1\n");
     porous("form a, van Leer, tolerance 1e-6", "tolerance = 1e-6\n");
     porous("form b, van Leer, tolerance 1e-6", "form = b\ntolerance = 1e-6\n");
     return 0;

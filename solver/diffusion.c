@@ -214,11 +214,12 @@ static double scale_of(const struct sim *s, const struct momentum *m, int a, int
     return 1.0 / (diagonal(s, m, a, c) + eps * s->fluid.mu * sum);
 }
 
-/* z = r scaled; returns r . z. With beta: d = z + beta d. */
-static double direction(const struct sim *s, const struct momentum *m, struct diffusion *d,
-                        int a, bool turn, double beta)
+/* z = r scaled, in q; returns r . z. With alpha, before that, u += alpha d, r -= alpha q. */
+static double scaled(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,
+                     double alpha, double *u)
 {
     const int rows = rows_of(s, a);
+    const double even = s->fluid.bare ? scale_of(s, m, a, 0) : 0.0;
 #pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
     for (int row = 0; row < rows; row++) {
         struct run_of_faces r;
@@ -227,17 +228,37 @@ static double direction(const struct sim *s, const struct momentum *m, struct di
         d->part[row] = 0.0;
         if (!faces_of_row(s, a, j, k, &r))
             continue;
-        for (int c = r.c + r.first; c <= r.c + r.last; c++) {
-            const double z = scale_of(s, m, a, c) * d->r[c];
-            if (turn)
-                d->d[c] = z + beta * d->d[c];
-            else
-                d->q[c] = z;
+        double *const restrict res = d->r + r.c, *const restrict q = d->q + r.c;
+        double *const restrict x = u + r.c;
+        const double *const restrict way = d->d + r.c;
+        for (int i = r.first; i <= r.last; i++) {
+            x[i] += alpha * way[i];
+            res[i] -= alpha * q[i];
         }
-        if (!turn)
-            d->part[row] = row_dot(&r, d->q, d->r);
+        if (s->fluid.bare)
+            for (int i = r.first; i <= r.last; i++)
+                q[i] = even * res[i];
+        else
+            for (int i = r.first; i <= r.last; i++)
+                q[i] = scale_of(s, m, a, r.c + i) * res[i];
+        d->part[row] = row_dot(&r, d->q, d->r);
     }
-    return turn ? 0.0 : add_rows(d, rows);
+    return add_rows(d, rows);
+}
+
+/* d = z + beta d */
+static void turn(const struct sim *s, struct diffusion *d, int a, double beta)
+{
+    const int rows = rows_of(s, a);
+#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
+    for (int row = 0; row < rows; row++) {
+        struct run_of_faces r;
+        int j, k;
+        row_at(s, a, row, &j, &k);
+        if (faces_of_row(s, a, j, k, &r))
+            for (int c = r.c + r.first; c <= r.c + r.last; c++)
+                d->d[c] = d->q[c] + beta * d->d[c];
+    }
 }
 
 /* q = (A - L/2) d; returns d . q */
@@ -261,29 +282,12 @@ static double apply(const struct sim *s, const struct momentum *m, struct diffus
     return add_rows(d, rows);
 }
 
-/* u += alpha d, r -= alpha q */
-static void move(const struct sim *s, struct diffusion *d, int a, double alpha, double *u)
-{
-    const int rows = rows_of(s, a);
-#pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
-    for (int row = 0; row < rows; row++) {
-        struct run_of_faces r;
-        int j, k;
-        row_at(s, a, row, &j, &k);
-        if (faces_of_row(s, a, j, k, &r))
-            for (int c = r.c + r.first; c <= r.c + r.last; c++) {
-                u[c] += alpha * d->d[c];
-                d->r[c] -= alpha * d->q[c];
-            }
-    }
-}
-
 int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,
                     const double *x, double *u, double tolerance)
 {
     if (first_residual(s, m, d, a, x, u) == 0.0)
         return 0;
-    double rz = direction(s, m, d, a, false, 0.0), beta = 0.0;
+    double rz = scaled(s, m, d, a, 0.0, u), beta = 0.0;
     const double target = tolerance * tolerance * rz;
     int n = 0;
     while (rz > target) {
@@ -292,12 +296,11 @@ int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffus
                 "the implicit viscosity has not converged at t = %.9g s: residual %.3g of its "
                 "start after %d iterations",
                 s->t, sqrt(rz / target) * tolerance, MOST);
-        direction(s, m, d, a, true, beta);
+        turn(s, d, a, beta);
         const double dq = apply(s, m, d, a);
         if (!(dq > 0.0))
             break;
-        move(s, d, a, rz / dq, u);
-        const double rz_new = direction(s, m, d, a, false, 0.0);
+        const double rz_new = scaled(s, m, d, a, rz / dq, u);
         beta = rz_new / rz;
         rz = rz_new;
     }
