@@ -135,8 +135,12 @@ static void create_fields(struct sim *s)
                                   (void **)&ns->old[a], FIELD_STATE});
     }
     ns->dp = grid_field(g);
-    if (!s->fluid.bare)
+    if (!s->fluid.bare) { /* the last change is the guess of the next */
         ns->rhs = grid_field(g);
+        fields_add(&s->fields,
+                   (struct field){"pressure_change", "Pa", "change of the pressure in a step",
+                                  PLACE_CELL, KIND_REAL, (void **)&ns->dp, FIELD_STATE});
+    }
     if (ns->by_flux)
         s->fluid.rate = grid_field(g);
     if (ns->momentum.implicit)
@@ -241,7 +245,7 @@ void fluid_sense(struct sim *s)
     if (s->fluid.steps == 0 && ns->dt_old == 0.0)
         fluid_velocity_sides(s, s->t);
     if (ns->by_flux && !ns->momentum.rate_off)
-        porosity_rate(s, ns->dp, s->fluid.rate);
+        porosity_rate(s, ns->rhs, s->fluid.rate);
     coupling_drag(s);
 }
 
@@ -280,8 +284,6 @@ static void solve_porous(struct sim *s)
     const double most = fluid_divergences(s, 1.0, ns->rhs);
     const double floor = 1e-15 * most * sqrt((double)g->n[0] * g->n[1] * g->n[2]);
     check_balance(s, floor);
-    for (size_t c = 0; c < g->total; c++)
-        ns->dp[c] = 0.0;
     const struct solve r =
         pressure_solve(ns->pressure, ns->now, 0.0, ns->rhs, ns->dp, ns->tolerance, floor);
     ns->iterations = f->iterations = r.iterations;
@@ -321,8 +323,8 @@ static void predict_porous(struct sim *s, double now, double before)
 {
     struct fluid_work *const ns = s->fluid.work;
     const bool implicit = ns->momentum.implicit;
-    momentum_dilatation(s, ns->dp);
-    momentum_porous(s, &ns->momentum, ns->dp, ns->now, s->fluid.stress);
+    momentum_dilatation(s, ns->rhs);
+    momentum_porous(s, &ns->momentum, ns->rhs, ns->now, s->fluid.stress);
     for (int a = 0; a < 3; a++)
         projection_predict(s, a, now, before, ns->now[a], ns->old[a],
                            implicit ? ns->now[a] : s->fluid.u[a]);
