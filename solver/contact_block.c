@@ -274,7 +274,7 @@ static void store(const struct sim *s, struct block *b, int first, struct sums *
     }
 }
 
-/* Counts, energy, the largest overlap. */
+/* Counts, energy, the largest overlap; the force of each wall contact. */
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
     const double reach = s->neighbours.reach;
@@ -284,6 +284,8 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;
         r->touching += depth > -reach;
         r->overlap = fmax(r->overlap, depth / fmin(ri, rj));
+        if (b->to[c] < 0)
+            s->contacts->wall_slot[b->live[c] - s->neighbours.walls.live] = wide(b->row[0][c]);
     }
 }
 

@@ -53,6 +53,7 @@ void contact_free(struct sim *s)
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
+    xfree(s->contacts->wall_slot);
     xfree(s->contacts);
 }
 
@@ -95,6 +96,11 @@ void contact_prepare(struct sim *s)
         w->report = xalloc((size_t)w->runs, sizeof *w->report);
         w->wall_force = xalloc(sums, sizeof *w->wall_force);
         w->wall_sum = xalloc(sums, sizeof *w->wall_sum);
+    }
+    if (nb->walls.n > w->wall_slots) {
+        w->wall_slots = nb->walls.n + nb->walls.n / 16 + 64;
+        xfree(w->wall_slot);
+        w->wall_slot = xalloc(w->wall_slots, sizeof *w->wall_slot);
     }
     if (nb->pairs.n > w->capacity) {
         w->capacity = nb->pairs.n + nb->pairs.n / 16 + 64;

@@ -139,9 +139,10 @@ static int advance(struct sim *s)
     progress_start(&progress, 0.0, s->run.end, "running");
     while (s->t < end && !s->run.done && !caught) {
         step(s);
-        probes_watch(s);
-        reference_watch(s);
         const double clock = wall_clock(), slack = 1e-9 * s->run.end;
+        probes_watch(s);
+        analysis_watch(s);
+        reference_watch(s);
         if (s->t >= next_sample - slack) {
             output_sample(s);
             while (next_sample <= s->t + slack)
@@ -180,6 +181,7 @@ static int run(struct sim *s, struct scene *scene)
     if (fill_settles(s, scene))
         settle(s);
     ledger_start(s);
+    analysis_start(s);
     if (s->fluid.exists)
         fluid_sense(s); /* the porosity at the start, for the output */
     output_fields(s);
@@ -187,6 +189,7 @@ static int run(struct sim *s, struct scene *scene)
     output_fields(s);
     ledger_report(s);
     probes_report(s);
+    analysis_report(s);
     reference_report(s);
     summarise(s, begin);
     output_close(s);

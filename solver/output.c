@@ -47,12 +47,14 @@ void output_create(struct sim *s, struct scene *scene)
     output_check(f, nc_def_dim(f->nc, "sample", NC_UNLIMITED, &f->dim[DIM_SAMPLE]));
     f->var_sample = output_define(f, "sample_time", NC_DOUBLE, 1, &f->dim[DIM_SAMPLE], "s",
                                   "time of the sample");
+    analysis_define(s, f);
     output_file_begin(f, s);
 }
 
 void output_fields(struct sim *s)
 {
     errno = 0;
+    analysis_record(s, &out);
     output_file_record(&out, s);
 }
 
@@ -74,6 +76,7 @@ void output_sample(struct sim *s)
 {
     struct output_file *const f = &out;
     errno = 0;
+    analysis_sample(s);
     if (!f->var_series)
         define_series(f, s);
     output_check(f, nc_put_var1_double(f->nc, f->var_sample, &f->n_sample, &s->t));

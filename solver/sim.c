@@ -26,6 +26,7 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     fluid_create(s, scene);
     run_steps(s, scene);
     probes_create(s, scene);
+    analysis_create(s, scene);
     reference_create(s, scene);
     if (scene_errors(scene) == 0) {
         neighbours_check(s, scene);
@@ -55,6 +56,7 @@ void sim_free(struct sim *s)
 {
     reference_free(s);
     probes_free(s);
+    analysis_free(s);
     fluid_free(s);
     contact_free(s);
     neighbours_free(s);

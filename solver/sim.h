@@ -4,6 +4,7 @@
 #define SIM_H
 
 #include <signal.h>
+#include "analysis.h"
 #include "body.h"
 #include "coupling.h"
 #include "domain.h"
@@ -55,6 +56,7 @@ struct sim {
     struct coupling coupling;
     struct ledger ledger;
     struct timers timers;
+    struct analysis analysis;
     struct fields fields;
     struct series series;
     struct tables tables;

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include "../solver/analysis.h"
 #include "../solver/coupling.h"
 #include "../forces/force.h"
 #include "../solver/domain.h"
@@ -281,6 +282,8 @@ static int print_keys(const char *program)
     keys_print(stdout, "\ngrains", grains_keys);
     keys_print(stdout, "", sizes_keys);
     keys_print(stdout, "\nwalls", wall_keys);
+    for (int k = 0; analysis_parts[k]; k++)
+        keys_print(stdout, k == 0 ? "\nwhat is measured" : "", analysis_parts[k]->keys);
     keys_print(stdout, "\nwith a fluid", flow_keys);
     keys_print(stdout, "", coupling_keys);
     keys_print(stdout, "", probe_keys);
