@@ -55,6 +55,9 @@ struct coupling {
     struct diffuse *diffuse;                   /* D; NULL: the identity */
     struct fluid_forces forces;                /* besides drag, stress, buoyancy */
     struct drag_grains drag_of;                /* the grains as the drag law sees them */
+    double by_volume;                          /* Pa/m; > 0: kappa is that of a conductivity of
+                                                  1 m/s, by the volume of the grain */
+    vec3 resistance;                           /* factor of kappa in each direction */
     double *part;                              /* n x reach, w kappa, kg/s */
     double *values;    /* n x SPREAD_STRIDE, what a grain adds to its cells */
     vec3 *slack;       /* 1/(1 + theta) per direction: kappa' over kappa */

@@ -57,20 +57,26 @@ static double grain_drag(struct sim *s, int i, bool *outside)
             drag_reynolds(p.eps, v3_norm(v3_sub(u, g->vel[i])), p.d, s->fluid.rho, s->fluid.mu);
         if (c->drag_of.sauter)
             p.y = p.d / c->drag_of.sauter[at];
-        part[k] = w[k].weight * drag_kappa(&p, s->fluid.mu);
-        *outside = *outside || drag_outside(&p);
+        if (c->by_volume > 0.0) {
+            part[k] = w[k].weight * g->volume[i] * c->by_volume * p.eps * p.eps / (1.0 - p.eps);
+        } else {
+            part[k] = w[k].weight * drag_kappa(&p, s->fluid.mu);
+            *outside = *outside || drag_outside(&p);
+        }
         for (int a = 0; a < 3; a++)
             theta[a] += part[k] * c->M[a][at];
     }
     const double per_mass = s->fluid.dt * g->inv_mass[i];
-    const vec3 rate = v3(per_mass * theta[0], per_mass * theta[1], per_mass * theta[2]);
+    const vec3 f = c->resistance;
+    const vec3 rate =
+        v3(per_mass * f.x * theta[0], per_mass * f.y * theta[1], per_mass * f.z * theta[2]);
     c->v_ref[i] = g->vel[i];
-    c->slack[i] = v3(1.0, 1.0, 1.0);
+    c->slack[i] = f;
     if (c->implicit && per_mass > 0.0) {
         const vec3 dv = v3_sub(g->vel[i], c->vel_old[i]);
         const vec3 pushed = v3_sub(forces_change(s, i), c->drag[i]);
         c->v_ref[i] = v3_axpy(v3_add(g->vel[i], dv), per_mass, pushed);
-        c->slack[i] = v3(1.0 / (1.0 + rate.x), 1.0 / (1.0 + rate.y), 1.0 / (1.0 + rate.z));
+        c->slack[i] = v3(f.x / (1.0 + rate.x), f.y / (1.0 + rate.y), f.z / (1.0 + rate.z));
     }
     return fmax(rate.x, fmax(rate.y, rate.z));
 }

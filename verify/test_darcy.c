@@ -99,12 +99,177 @@ static void check_ergun(double gradient)
     xfree(sides);
 }
 
+/* A drained layer: initial excess head, head 0 at the top, closed below. p/p0 =
+ * sum 2/M sin(M Z) exp(-M^2 T), M = (2m + 1) pi/2, Z from the drained side, T = c_v t/L^2,
+ * c_v = k/(mu m_v) [Terzaghi43]; the degree of consolidation U against the tabulated values. */
+static void check_consolidation(void)
+{
+    static const double table[][2] = {/* T, U: published series, summed */
+                                      {0.05, 0.25231325},
+                                      {0.197, 0.50033812},
+                                      {0.403, 0.70011070},
+                                      {0.848, 0.89997892}};
+    const int n = 32, steps = 1000;
+    const double L = n * 1e-3, m_v = 3.3e-7, p0 = rho * g * 2.7e-6;
+    const double c_v = conductivity() / (rho * g * m_v), dt = 0.848 * L * L / c_v / steps;
+    char *const fluid =
+        xprintf("compressibility = %.17g 1/Pa\nhead = 2.7 um\ndt = %.17g s\n", m_v, dt);
+    struct sim *const s = column(n, "z- = wall\nz+ = head\n", fluid);
+    double worst = 0.0, worst_u = 0.0;
+    for (int k = 0, row = 0; k < steps; k++) {
+        step(s);
+        const double T = c_v * s->t / (L * L);
+        double mean = 0.0;
+        for (int i = 1; i <= n; i++) {
+            const double Z = 1.0 - (i - 0.5) / n, p = s->fluid.p[cell(&s->grid, 2, 1, i)] / p0;
+            double exact = 0.0;
+            for (int m = 0; m < 40; m++) {
+                const double M = (2 * m + 1) * PI / 2.0;
+                exact += 2.0 / M * sin(M * Z) * exp(-M * M * T);
+            }
+            if (T > 0.05)
+                worst = fmax(worst, fabs(p - exact));
+            mean += p / n;
+        }
+        if (row < 4 && T >= table[row][0] - 1e-9) { /* U grows by dU/dT from the tabled T */
+            double rate = 0.0;
+            for (int m = 0; m < 40; m++) {
+                const double M = (2 * m + 1) * PI / 2.0;
+                rate += 2.0 * exp(-M * M * T);
+            }
+            const double U = 1.0 - mean - rate * (T - table[row][0]);
+            worst_u = fmax(worst_u, fabs(U / table[row][1] - 1.0));
+            row++;
+        }
+    }
+    check(worst < 5e-3, "consolidation: head within %.2g of the first, against the series",
+          worst);
+    check(worst_u < 5e-3, "consolidation: U against Terzaghi's table: %.2g off", worst_u);
+    xfree(fluid);
+    sim_free(s);
+}
+
+/* A box without grains, of a given conductivity. */
+static struct sim *aquifer(int n, const char *more)
+{
+    char *const text = xprintf(
+        "[domain]\nsize = 99 99 7 m\ncells = %d %d 1\nx = head\ny = head\nz = wall\n"
+        "[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 10 s\n%s[run]\nend = 1e9 s\n",
+        n, n, more);
+    struct sim *const s = sim_from(text);
+    xfree(text);
+    return s;
+}
+
+/* Thiem: h(r) - h(R) = Q/(2 pi T) ln(R/r), T = K L, around a steady well in the middle of a square
+ * whose sides hold the head 0 (their images change the difference by less than (r/99 m)^4). */
+static double thiem(int n, double ratio)
+{
+    const double Q = 3.7e-3, T = 2.3e-4 * 7.0;
+    struct sim *const s =
+        aquifer(n, "conductivity = 2.3e-4 2.3e-4 1e-6 m/s\n[well main]\n"
+                   "from = 49.5 49.5 0 m\nto = 49.5 49.5 7 m\nrate = 3.7 l/s\n");
+    step(s);
+    step(s);
+    const int middle = n / 2 + 1, r = 3 * n / 99, R = (int)(ratio * r);
+    const double *const p = s->fluid.p;
+    const double drop =
+        (p[cell(&s->grid, middle + r, middle, 1)] - p[cell(&s->grid, middle, middle + R, 1)]) /
+        (rho * g);
+    sim_free(s);
+    return 2.0 * PI * T * drop / Q / log(ratio) - 1.0;
+}
+
+/* Wells with a ramp: what they give leaves through the sides. */
+static void check_wells(void)
+{
+    struct sim *const s =
+        aquifer(33, "conductivity = 1e-4 3e-4 1e-4 m/s\n[well slant]\nfrom = 10.3 20.1 1 m\n"
+                    "to = 71.9 83.3 5 m\nrate = 5 l/s\nramp = 40 s\n"
+                    "[well point]\nfrom = 80.2 11.7 3 m\nrate = -1.3 l/s\n");
+    for (int k = 1; k <= 5; k++) {
+        step(s);
+        double out = 0.0;
+        for (int a = 0; a < 2; a++)
+            for (int i = 1; i <= 33; i++) {
+                const int lo = cell(&s->grid, a ? i : 1, a ? 1 : i, 1);
+                const int hi = lo + 33 * s->grid.s[a];
+                out += (s->fluid.u[a][hi] - s->fluid.u[a][lo]) * 3.0 * 7.0;
+            }
+        const double want = 5e-3 * fmin(1.0, s->t / 40.0) - 1.3e-3;
+        check_rel(out, want, 1e-9, "two wells, one ramped: flow through the sides");
+    }
+    sim_free(s);
+}
+
+static double slope_of(int a) /* of the head, in the box of check_direction */
+{
+    static const double size[3] = {4e-3, 6e-3, 5e-3};
+    return 12e-6 / size[a];
+}
+
+/* A given conductivity along each direction: flux K i, and the grains bear the whole gradient. */
+static void check_direction(int a, const char *keys, double K)
+{
+    static const char *const sides[3] = {
+        "x = head\ny = periodic\nz = wall\n[side x-]\nhead = 12 um\n",
+        "x = wall\ny = head\nz = wall\n[side y-]\nhead = 12 um\n",
+        "x = wall\ny = periodic\nz = head\n[side z-]\nhead = 12 um\n"};
+    char *const text = xprintf(
+        "[grains bed]\ndiameter = 1 mm\ndensity = 2650 kg/m3\nfill = unit_cell\nspacing = 1 "
+        "mm\n"
+        "frozen = yes\n[domain]\nsize = 4 6 5 mm\ncells = 4 6 5\n%s[fluid]\ndensity = 1000 "
+        "kg/m3\nviscosity = 1 mPa s\ndt = 1 s\n%s[coupling]\nbuoyancy = off\n[run]\nend = 1e9 "
+        "s\n",
+        sides[a], keys);
+    struct sim *const s = sim_from(text);
+    xfree(text);
+    for (int k = 0; k < 3; k++)
+        step(s);
+    const double slope = slope_of(a);
+    const int c = cell(&s->grid, 2, 3, 2);
+    check_rel(s->fluid.u[a][c] * s->fluid.eps_f[a][c], K * slope, 1e-6,
+              "flux along one direction");
+    const double force[3] = {s->coupling.to_grains.x, s->coupling.to_grains.y,
+                             s->coupling.to_grains.z};
+    const double want = rho * g * slope * 4e-3 * 6e-3 * 5e-3;
+    check_rel(force[a], want, 1e-9, "and the grains bear its pressure gradient");
+    sim_free(s);
+}
+
+static void check_anisotropy(void)
+{
+    const char *const given = "conductivity = 0.31 0.011 2.7 mm/s\n";
+    const char *const ratio = "anisotropy = 1.7 0.23 4.1\n";
+    static const double K[3] = {3.1e-4, 1.1e-5, 2.7e-3}, factor[3] = {1.7, 0.23, 4.1};
+    for (int a = 0; a < 3; a++) {
+        check_direction(a, given, K[a]);
+        /* (a U + b U^2)/factor = rho g i */
+        const double eps = 1.0 - phi, e3 = eps * eps * eps,
+                     drive = factor[a] * rho * g * slope_of(a);
+        const double A = 150.0 * mu * phi * phi / (e3 * d * d), B = 1.75 * rho * phi / (e3 * d);
+        const double flux = 2.0 * drive / (A + sqrt(A * A + 4.0 * B * drive));
+        check_direction(a, ratio, flux / slope_of(a));
+    }
+}
+
 int main(void)
 {
     const double coarse = transient(50), fine = transient(100);
     check(fine < 2e-3, "head after a sudden rise, against the exact series: %.3g off", fine);
     check(coarse / fine > 1.7, "first order in time: %.3g and %.3g", coarse, fine);
     check_source();
+    check_consolidation();
+    static const double ratios[2] = {2.0, 5.0};
+    for (int i = 0; i < 2; i++) {
+        const double wide = thiem(99, ratios[i]), narrow = thiem(165, ratios[i]);
+        const double order = log(fabs(wide / narrow)) / log(165.0 / 99.0);
+        check(fabs(narrow) < 6e-3 && order > 1.8 && order < 2.5,
+              "Thiem's well, radii 1 to %g: %.2g and, with finer cells, %.2g off: order %.2f",
+              ratios[i], wide, narrow, order);
+    }
+    check_wells();
+    check_anisotropy();
     check_ergun(1e-4);
     check_ergun(1.0);
     check_ergun(1e4);

@@ -9,6 +9,12 @@
  * is exact. Backward Euler in time. A law that depends on the velocity (Ergun) is iterated
  * (Picard).
  *
+ * K may differ with direction: fluid.anisotropy multiplies that of the drag law, or
+ * fluid.conductivity gives it (then B = m^2 rho g/K where there are grains, each bearing the part
+ * of its volume). q is fluid.source and the wells. S_s is fluid.storage, or rho g m_v with the
+ * compressibility m_v of the bed [Terzaghi43], for a bed whose grains do not move; grains that do
+ * move take up d(eps)/dt.
+ *
  * Cells without grains do not resist: the conductivity of a face is held below fluid.contrast
  * times the smallest of the bed; the number of faces so held is a time series. */
 #include "fluid.h"
@@ -16,6 +22,7 @@
 #include <string.h>
 #include "../feasibility.h"
 #include "../fluid_state.h"
+#include "../wells.h"
 
 enum { PICARD_MOST = 200 };
 
@@ -31,6 +38,13 @@ const struct key fluid_keys[] = {
     {"fluid", "viscosity", KEY_REAL, "Pa s", "(0, inf)", NULL, "dynamic viscosity"},
     {"fluid", "dt", KEY_REAL, "s", "auto | (0, inf)", "auto", "the fluid's step"},
     {"fluid", "storage", KEY_REAL, "m-1", "[0, inf)", "0 1/m", "specific storage S_s"},
+    {"fluid", "compressibility", KEY_REAL, "Pa-1", "[0, inf)", "0 1/Pa",
+     "of the bed, m_v: in place of the storage, which is rho g m_v then"},
+    {"fluid", "conductivity", KEY_VECTOR, "m s-1", "drag | (0, inf)", "drag",
+     "hydraulic conductivity in x, y, z, in place of that of the drag law"},
+    {"fluid", "anisotropy", KEY_VECTOR, "1", "(0, inf)", "1 1 1",
+     "conductivity in x, y, z over that of the drag law"},
+    {"fluid", "head", KEY_REAL, "m", "(-inf, inf)", "0 m", "total head at the start"},
     {"fluid", "source", KEY_REAL, "s-1", "(-inf, inf)", "0 1/s",
      "volume of fluid made per volume and time, q"},
     {"fluid", "contrast", KEY_REAL, "1", "[1, 1e12]", "1e4",
@@ -39,6 +53,7 @@ const struct key fluid_keys[] = {
      "residual of the solve, relative to its right-hand side"},
     {"fluid", "picard", KEY_REAL, "1", "(0, 0.1]", "1e-10",
      "relative change of the velocity at which a drag law that depends on it has converged"},
+    WELL_KEYS,
     {0},
 };
 
@@ -46,8 +61,12 @@ struct fluid_work {
     struct pressure *pressure;
     double *conductivity[3]; /* m^2/B on faces, m2/(Pa s) */
     double *rhs, *p_new, *dp;
+    double *made;        /* 1/s, q at the end of the step */
     double *u_before[3]; /* solved in the round before */
     double tolerance, picard, contrast, storage, source;
+    bool given;      /* the conductivity is, */
+    double along[3]; /* m/s, in each direction */
+    struct wells wells;
     double gravity; /* m/s2, for heads */
     double held;    /* faces whose conductivity is held, for the series */
     double iterations;
@@ -61,14 +80,49 @@ static void check_sides(struct sim *s, struct scene *scene)
         open = open || side_open(&s->domain, side);
         pushed = pushed || kind == SIDE_FLUX || kind == SIDE_INFLOW;
     }
-    const bool stores = scene_real(scene, "fluid", NULL, "storage") > 0.0;
-    if (!open && !stores && (pushed || scene_real(scene, "fluid", NULL, "source") != 0.0))
-        scene_error(
-            scene, "domain", NULL, NULL,
-            "what flows in must go somewhere: a head or outflow side, or fluid.storage");
+    const struct fluid_work *const w = s->fluid.work;
+    pushed = pushed || w->wells.n > 0 || w->source != 0.0;
+    if (!open && !(w->storage > 0.0) && pushed)
+        scene_error(scene, "domain", NULL, NULL,
+                    "what flows in must go somewhere: a head or outflow side, fluid.storage or "
+                    "fluid.compressibility");
     if (v3_norm(s->flow.gradient) > 0.0 &&
         !(s->domain.periodic[0] || s->domain.periodic[1] || s->domain.periodic[2]))
         scene_error(scene, "flow", NULL, "pressure_gradient", "no direction is periodic");
+}
+
+/* Storage and conductivity. */
+static void read_bed(struct fluid_work *w, struct scene *scene)
+{
+    const double rho = scene_real(scene, "fluid", NULL, "density");
+    const double m_v = scene_real(scene, "fluid", NULL, "compressibility");
+    w->storage = scene_real(scene, "fluid", NULL, "storage");
+    if (m_v > 0.0 && scene_given(scene, "fluid", NULL, "storage"))
+        scene_error(scene, "fluid", NULL, "compressibility",
+                    "contradicts fluid.storage: give either one");
+    if (m_v > 0.0)
+        w->storage = rho * w->gravity * m_v;
+    w->given = !scene_word(scene, "fluid", NULL, "conductivity", "drag");
+    if (w->given && scene_given(scene, "fluid", NULL, "anisotropy"))
+        scene_error(scene, "fluid", NULL, "anisotropy",
+                    "contradicts fluid.conductivity: give either one");
+    const vec3 k = scene_vector(scene, "fluid", NULL, w->given ? "conductivity" : "anisotropy");
+    w->along[0] = k.x;
+    w->along[1] = k.y;
+    w->along[2] = k.z;
+}
+
+/* The grains' drag follows the conductivity. */
+static void set_resistance(struct sim *s, struct scene *scene)
+{
+    const struct fluid_work *const w = s->fluid.work;
+    struct coupling *const c = &s->coupling;
+    c->resistance = v3(1.0 / w->along[0], 1.0 / w->along[1], 1.0 / w->along[2]);
+    c->by_volume = w->given ? s->fluid.rho * w->gravity : 0.0;
+    if (w->given && s->grains.n > 0 && !porosity_displaces)
+        scene_error(
+            scene, "fluid", NULL, "conductivity",
+            "grains bear it by their volume on the grid: modules.porosity must not be none");
 }
 
 void fluid_create(struct sim *s, struct scene *scene)
@@ -77,18 +131,25 @@ void fluid_create(struct sim *s, struct scene *scene)
     w->tolerance = scene_real(scene, "fluid", NULL, "tolerance");
     w->picard = scene_real(scene, "fluid", NULL, "picard");
     w->contrast = scene_real(scene, "fluid", NULL, "contrast");
-    w->storage = scene_real(scene, "fluid", NULL, "storage");
     w->source = scene_real(scene, "fluid", NULL, "source");
     w->gravity = v3_norm(s->domain.gravity) > 0.0 ? v3_norm(s->domain.gravity) : 9.81;
+    const double start = scene_real(scene, "fluid", NULL, "head");
+    read_bed(w, scene);
+    wells_read(&w->wells, scene, &s->domain);
     check_sides(s, scene);
     if (!fluid_state_create(s, scene))
         return;
+    set_resistance(s, scene);
+    wells_place(&w->wells, &s->grid);
+    for (size_t c = 0; c < s->grid.total; c++)
+        s->fluid.p[c] = s->fluid.rho * w->gravity * start;
     enum poisson_side side[6];
     fluid_pressure_sides(&s->domain, side);
     w->pressure = pressure_create(&s->grid, &s->domain, side);
     w->rhs = grid_field(&s->grid);
     w->p_new = grid_field(&s->grid);
     w->dp = grid_field(&s->grid);
+    w->made = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
         w->conductivity[a] = grid_field(&s->grid);
         w->u_before[a] = grid_field(&s->grid);
@@ -107,12 +168,15 @@ void fluid_free(struct sim *s)
         xfree(w->rhs);
         xfree(w->p_new);
         xfree(w->dp);
+        xfree(w->made);
         for (int a = 0; a < 3; a++) {
             xfree(w->conductivity[a]);
             xfree(w->u_before[a]);
         }
         fluid_state_free(s);
     }
+    if (w)
+        wells_free(&w->wells);
     xfree(w);
 }
 
@@ -127,38 +191,58 @@ void fluid_load(struct sim *s)
     coupling_load(s);
 }
 
-/* m^2/B, held below contrast times its smallest value; counts the faces held. */
-static void conductivities(struct sim *s)
+/* Smallest m^2/B of direction a; the field, or the conductivity given where nothing resists. */
+static double conductivity_of(struct sim *s, int a)
 {
     const struct fluid *const f = &s->fluid;
     const struct grid *const g = &s->grid;
-    struct fluid_work *const w = f->work;
-    double least = (double)INFINITY;
-    for (int a = 0; a < 3; a++)
-        for (int k = 1; k <= face_last(g, a, 2); k++)
-            for (int j = 1; j <= face_last(g, a, 1); j++)
-                for (int i = 1; i <= face_last(g, a, 0); i++) {
-                    const int c = cell(g, i, j, k);
-                    const double m = f->eps_f[a][c];
-                    w->conductivity[a][c] = m * m / f->drag[a][c]; /* inf without grains */
-                    least = fmin(least, w->conductivity[a][c]);
+    const double given = f->work->along[a] / (f->rho * f->work->gravity);
+    const bool is_given = f->work->given;
+    double *const K = f->work->conductivity[a], least = (double)INFINITY;
+#pragma omp parallel for schedule(static) reduction(min : least)
+    for (int k = 1; k <= face_last(g, a, 2); k++)
+        for (int j = 1; j <= face_last(g, a, 1); j++)
+            for (int i = 1; i <= face_last(g, a, 0); i++) {
+                const int c = cell(g, i, j, k);
+                const double m = f->eps_f[a][c], B = f->drag[a][c];
+                K[c] = B > 0.0 ? m * m / B : is_given ? given : (double)INFINITY;
+                least = fmin(least, K[c]);
+            }
+    return least;
+}
+
+/* No more than `most`; how many were. */
+static long hold(struct sim *s, int a, double most)
+{
+    const struct grid *const g = &s->grid;
+    double *const K = s->fluid.work->conductivity[a];
+    long held = 0;
+#pragma omp parallel for schedule(static) reduction(+ : held)
+    for (int k = 1; k <= face_last(g, a, 2); k++)
+        for (int j = 1; j <= face_last(g, a, 1); j++)
+            for (int c = cell(g, 1, j, k); c <= cell(g, face_last(g, a, 0), j, k); c++)
+                if (K[c] > most) {
+                    K[c] = most;
+                    held++;
                 }
-    if (!isfinite(least))
+    return held;
+}
+
+/* m^2/B, held below contrast times its smallest value; counts the faces held. */
+static void conductivities(struct sim *s)
+{
+    struct fluid_work *const w = s->fluid.work;
+    w->held = 0.0;
+    double of_all = (double)INFINITY;
+    for (int a = 0; a < 3; a++)
+        of_all = fmin(of_all, conductivity_of(s, a));
+    if (!isfinite(of_all))
         die(EXIT_UNSTABLE,
             "no cell resists the flow at t = %.9g s: darcy needs grains and a drag "
-            "law other than none",
+            "law other than none, or fluid.conductivity",
             s->t);
-    w->held = 0.0;
-    for (int a = 0; a < 3; a++)
-        for (int k = 1; k <= face_last(g, a, 2); k++)
-            for (int j = 1; j <= face_last(g, a, 1); j++)
-                for (int i = 1; i <= face_last(g, a, 0); i++) {
-                    double *const K = &w->conductivity[a][cell(g, i, j, k)];
-                    if (*K > w->contrast * least) {
-                        *K = w->contrast * least;
-                        w->held += 1.0;
-                    }
-                }
+    for (int a = 0; a < 3 && !w->given; a++)
+        w->held += (double)hold(s, a, w->contrast * of_all);
 }
 
 /* Pressure held at a side, Pa. */
@@ -231,10 +315,10 @@ static void solve_head(struct sim *s)
         for (int j = 1; j <= g->n[1]; j++)
             for (int c = cell(g, 1, j, k); c <= cell(g, g->n[0], j, k); c++) {
                 const double stored = shift * (w->p_new[c] - f->p[c]);
-                w->rhs[c] = fluid_divergence(s, c) + stored - w->source;
+                w->rhs[c] = fluid_divergence(s, c) + stored - w->made[c];
                 for (int a = 0; a < 3; a++)
                     scale = fmax(scale, fabs(f->u[a][c]) * f->eps_f[a][c] / g->h[a]);
-                scale = fmax(scale, fabs(stored) + fabs(w->source));
+                scale = fmax(scale, fabs(stored) + fabs(w->made[c]));
             }
     const double lost = pressure_imbalance(w->pressure, shift, w->rhs);
     if (lost > 1e-6 && scale > 0.0)
@@ -279,6 +363,9 @@ void fluid_step(struct sim *s)
     const struct grid *const g = &s->grid;
     const size_t bytes = g->total * sizeof(double);
     memcpy(w->p_new, f->p, bytes);
+    for (size_t c = 0; c < g->total; c++)
+        w->made[c] = w->source;
+    wells_add(&w->wells, g, s->t + f->dt, w->made);
     int rounds = 0;
     double changed;
     do {
