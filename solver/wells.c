@@ -20,7 +20,8 @@ static void read_well(struct well *w, struct scene *s, const char *name, const s
     w->rate.ramp = scene_real(s, "well", name, "ramp");
     course_read_table(&w->rate, s, "well", name, "table");
     if (w->rate.n > 0 && scene_given(s, "well", name, "rate"))
-        scene_error(s, "well", name, "rate", "contradicts the table of the well: give either one");
+        scene_error(s, "well", name, "rate",
+                    "contradicts the table of the well: give either one");
 }
 
 void wells_read(struct wells *w, struct scene *s, const struct domain *d)

@@ -20,12 +20,27 @@ struct wells {
 
 /* The keys of a well, for the table of keys of an answer that has wells. */
 #define WELL_KEYS                                                                              \
-    {"well", "from", KEY_VECTOR, "m", "[0, inf)", NULL,                                        \
+    {"well",                                                                                   \
+     "from",                                                                                   \
+     KEY_VECTOR,                                                                               \
+     "m",                                                                                      \
+     "[0, inf)",                                                                               \
+     NULL,                                                                                     \
      "where the screen of the well begins; its name names the section"},                       \
         {"well", "to", KEY_VECTOR, "m", "from | [0, inf)", "from", "where it ends"},           \
-        {"well", "rate", KEY_REAL, "m3 s-1", "(-inf, inf)", "0 m3/s",                          \
+        {"well",                                                                               \
+         "rate",                                                                               \
+         KEY_REAL,                                                                             \
+         "m3 s-1",                                                                             \
+         "(-inf, inf)",                                                                        \
+         "0 m3/s",                                                                             \
          "volume of fluid put in per time; negative: taken out"},                              \
-        {"well", "ramp", KEY_REAL, "s", "[0, inf)", "0 s",                                     \
+        {"well",                                                                               \
+         "ramp",                                                                               \
+         KEY_REAL,                                                                             \
+         "s",                                                                                  \
+         "[0, inf)",                                                                           \
+         "0 s",                                                                                \
          "time in which the rate grows from 0 at t = 0"},                                      \
     {                                                                                          \
         "well", "table", KEY_TEXT, "", "", "", "CSV file of the rate: time in s, rate in m3/s" \

@@ -2,6 +2,7 @@
  * depends on the velocity, driven by heads. Frozen grains of 1 mm, one to a cell of 1 mm: the fluid
  * fraction is 1 - pi/6 everywhere. */
 /* slots: drag/ergun porosity/divided solver/fluid/darcy */
+#include <omp.h>
 #include "check.h"
 #include "harness.h"
 
@@ -255,6 +256,7 @@ static void check_anisotropy(void)
 
 int main(void)
 {
+    omp_set_num_threads(1); /* small boxes; threads are for test_poisson and the scenes */
     const double coarse = transient(50), fine = transient(100);
     check(fine < 2e-3, "head after a sudden rise, against the exact series: %.3g off", fine);
     check(coarse / fine > 1.7, "first order in time: %.3g and %.3g", coarse, fine);
