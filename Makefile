@@ -49,7 +49,7 @@ ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))
 SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
 TOOLS := $(patsubst tools/%.c,$(BUILD)/%,$(wildcard tools/*.c))
 
-.PHONY: silt where tools answers clean format format-check check verify bench deps FORCE
+.PHONY: matrix silt where tools answers clean format format-check check verify bench deps FORCE
 silt: $(BIN)
 where: # prints where the binary is
 	@echo $(BIN)
@@ -121,6 +121,25 @@ $(BUILD)/bench/answers $(BUILD)/bench/contact_answers: $(BUILD)/%: $(BUILD)/obj/
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) \
 	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
+
+# Every combination of the contact slots, linked into a dry binary; kept as empty marks.
+names = $(basename $(notdir $(wildcard $(1)/*.c)))
+MATRIX := $(foreach a,$(call names,contact),$(foreach b,$(call names,contact/rolling),\
+          $(foreach c,$(call names,contact/bond),$(foreach d,$(call names,contact/cohesion),\
+          $(foreach e,$(call names,contact/lubrication),$(a)-$(b)-$(c)-$(d)-$(e))))))
+matrix: $(patsubst %,$(BUILD)/matrix/%,$(MATRIX))
+	@echo "$(words $(MATRIX)) combinations of the contact slots link"
+part = $(word $(1),$(subst -, ,$(2)))
+matrix_obj = $(BUILD)/obj/shapes/sphere.o $(BUILD)/obj/contact/$(call part,1,$(1)).o \
+             $(BUILD)/obj/contact/rolling/$(call part,2,$(1)).o \
+             $(BUILD)/obj/contact/bond/$(call part,3,$(1)).o \
+             $(BUILD)/obj/contact/cohesion/$(call part,4,$(1)).o \
+             $(BUILD)/obj/contact/lubrication/$(call part,5,$(1)).o \
+             $(patsubst %,$(BUILD)/obj/%/none.o,drag porosity solver/fluid reference) \
+             $(BUILD)/obj/lists/forces-none.o
+$(BUILD)/matrix/%: $(BUILD)/obj/solver/main.o $(LIB) $(SHARED) $(FIRST)
+	@mkdir -p $(@D)
+	@$(CC) $(LDFLAGS) -s -o $@.part $< $(call matrix_obj,$*) $(LIB) $(LIBS) && rm $@.part && touch $@
 
 $(BUILD)/provenance.h: FORCE
 	@mkdir -p $(@D)

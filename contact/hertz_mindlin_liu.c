@@ -91,14 +91,14 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
                         loads ? depth : 1.0);
         const struct arrow to = arrow_axpy(turned, dt, v);
         const real size = sqrt(arrow_dot(to, to)), most = k[S_MAX][c] * depth;
-        const bool full = !(size < most);
-        const struct arrow s = arrow_scale(size > most ? most / size : 1.0, to);
-        /* q = 1 - s/s_max; the force per s has a limit where s goes to zero */
-        const real x = full ? 1.0 : size * (k[INV_S_MAX][c] / (depth > 0.0 ? depth : 1.0));
-        const real q = 1.0 - x, root = sqrt(q);
+        const real inverse = size > 0.0 ? 1.0 / size : 0.0;
+        const struct arrow s = arrow_scale(size > most ? most * inverse : 1.0, to);
+        /* q = 1 - s/s_max */
+        const real x =
+            size < most ? size * (k[INV_S_MAX][c] / (depth > 0.0 ? depth : 1.0)) : 1.0;
+        const real q = x < 1.0 ? 1.0 - x : 0.0, root = sqrt(q);
         const real mobilised = k[MU][c] * elastic_n * (1.0 - q * root);
-        const real length = full ? most : size;
-        const struct arrow spring = arrow_scale(length > 0.0 ? -mobilised / length : 0.0, s);
+        const struct arrow spring = arrow_scale(-mobilised * inverse, to);
         /* tangent stiffness 1.5 mu F_n^e sqrt(q)/s_max = 1.5 mu k_n/(s_max/depth) sqrt(q) */
         const real tangent = 1.5 * k[MU][c] * k[INV_S_MAX][c] * kn * root;
         const struct arrow dashpot =

@@ -11,7 +11,7 @@ enum { MOST = 32, STEPS = 4000 };
 static struct law laws[LAW_SLOTS][MOST];
 static int count[LAW_SLOTS];
 
-static const char *const bonded[] = {"bond.gap=1 mm", NULL};
+static const char *const bonded[] = {"bond.gap=1 mm", "bond.damping=0.1", NULL};
 static const char *const elastic[] = {"material a.restitution=1", "material b.restitution=1",
                                       NULL};
 

@@ -93,19 +93,20 @@ void bond_forces(struct touch *t, real (*history)[TOUCH])
         const real angle = dt * bonding_roll(t, c, n);
         const real k_n = k[KN][c], k_s = k[KS][c];
         const bool old = state[c] > 0.0;
-        const bool made = now * k_n > 0.0 && state[c] == 0.0 && t->depth[c] >= -gap;
-        const bool on = old || made;
+        const bool made = (now * k_n > 0.0) & (state[c] == 0.0) & (t->depth[c] >= -gap);
+        const bool on = old | made;
         const real rest = made ? t->depth[c] : depth_0[c], step = old ? dt : 0.0;
         const real f_n = k_n * (t->depth[c] - rest);
         const struct arrow shear = arrow_axpy(
             bonding_turn((struct arrow){sx[c], sy[c], sz[c]}, n, angle), -k_s * step, v);
-        const bool torn = on && -f_n > k[TENSION][c];
-        const bool sheared = on && sqrt(arrow_dot(shear, shear)) > k[SHEAR][c];
-        const bool holds = on && !torn && !sheared;
-        const real all = holds ? 1.0 : 0.0;
+        const bool torn = on & (-f_n > k[TENSION][c]);
+        const bool sheared = on & (sqrt(arrow_dot(shear, shear)) > k[SHEAR][c]);
+        const bool breaks = torn | sheared;
+        const real bound = on ? 1.0 : 0.0, all = breaks ? 0.0 : bound; /* whether it bears */
         broken[0][c] = torn ? 1.0 : 0.0;
         broken[1][c] = sheared ? 1.0 : 0.0;
-        state[c] = holds ? 1.0 : on ? -1.0 : state[c];
+        const real bonded = on ? 1.0 : state[c];
+        state[c] = breaks ? -1.0 : bonded;
         depth_0[c] = rest;
         sx[c] = all * shear.x;
         sy[c] = all * shear.y;

@@ -57,10 +57,12 @@ static real lambda;
 
 /* Of a pair of materials, as the loop needs them. */
 enum {
-    KN,    /* Pa/m */
-    KS,    /* Pa/m */
-    SIGMA, /* Pa */
-    TAU,   /* Pa */
+    KN,     /* Pa/m */
+    KS,     /* Pa/m */
+    ROOT_N, /* sqrt(pi k_n) */
+    ROOT_S, /* sqrt(pi k_s) */
+    SIGMA,  /* Pa */
+    TAU,    /* Pa */
     PARAMETERS
 };
 static real table[PAIRS_MAX][PARAMETERS];
@@ -82,6 +84,8 @@ void bond_init(struct scene *s, const struct materials *m)
         stretch[p] = kn[p] > 0.0 ? sigma[p] / kn[p] : 0.0;
         table[p][KN] = (real)kn[p];
         table[p][KS] = (real)ks[p];
+        table[p][ROOT_N] = (real)sqrt(PI * kn[p]);
+        table[p][ROOT_S] = (real)sqrt(PI * ks[p]);
         table[p][SIGMA] = (real)sigma[p];
         table[p][TAU] = (real)tau[p];
     }
@@ -111,8 +115,8 @@ void bond_forces(struct touch *t, real (*history)[TOUCH])
         const real k_n = k[KN][c] * area, k_s = k[KS][c] * area;
         const real k_b = k[KN][c] * inertia, k_t = k[KS][c] * 2.0 * inertia;
         const bool old = state[c] > 0.0;
-        const bool made = now * k_n > 0.0 && state[c] == 0.0 && t->depth[c] >= -gap;
-        const bool on = old || made;
+        const bool made = (now * k_n > 0.0) & (state[c] == 0.0) & (t->depth[c] >= -gap);
+        const bool on = old | made;
         const real rest = made ? t->depth[c] : depth_0[c], step = old ? dt : 0.0;
         const real f_n = k_n * (t->depth[c] - rest);
         const struct arrow shear = arrow_axpy(
@@ -120,15 +124,17 @@ void bond_forces(struct touch *t, real (*history)[TOUCH])
         const struct arrow bend = arrow_axpy(
             bonding_turn((struct arrow){bx[c], by[c], bz[c]}, n, angle), -k_b * step, w_s);
         const real twist = mn[c] - k_t * step * w_n;
-        const real sigma = sqrt(arrow_dot(bend, bend)) * r / inertia - f_n / area;
+        const real per_area = 1.0 / area, per_section = 4.0 * PI * r * per_area * per_area;
+        const real sigma = sqrt(arrow_dot(bend, bend)) * per_section - f_n * per_area;
         const real size = twist > 0.0 ? twist : -twist;
-        const real tau = sqrt(arrow_dot(shear, shear)) / area + size * r / (2.0 * inertia);
-        const bool torn = on && sigma > k[SIGMA][c], sheared = on && tau > k[TAU][c];
-        const bool holds = on && !torn && !sheared;
-        const real all = holds ? 1.0 : 0.0;
+        const real tau = sqrt(arrow_dot(shear, shear)) * per_area + 0.5 * size * per_section;
+        const bool torn = on & (sigma > k[SIGMA][c]), sheared = on & (tau > k[TAU][c]);
+        const bool breaks = torn | sheared;
+        const real bound = on ? 1.0 : 0.0, all = breaks ? 0.0 : bound; /* whether it bears */
         broken[0][c] = torn ? 1.0 : 0.0;
         broken[1][c] = sheared ? 1.0 : 0.0;
-        state[c] = holds ? 1.0 : on ? -1.0 : state[c];
+        const real bonded = on ? 1.0 : state[c];
+        state[c] = breaks ? -1.0 : bonded;
         depth_0[c] = rest;
         sx[c] = all * shear.x;
         sy[c] = all * shear.y;
@@ -137,11 +143,13 @@ void bond_forces(struct touch *t, real (*history)[TOUCH])
         bx[c] = all * bend.x;
         by[c] = all * bend.y;
         bz[c] = all * bend.z;
-        const real root_m = zeta * sqrt(t->m_eff[c]), root_i = zeta * sqrt(t->inertia[c]);
-        const real normal = f_n - root_m * sqrt(k_n) * t->vn[c];
-        const struct arrow side = arrow_axpy(shear, -root_m * sqrt(k_s), v);
-        const struct arrow couple = arrow_axpy(bend, -root_i * sqrt(k_b), w_s);
-        const real about = twist - root_i * sqrt(k_t) * w_n;
+        /* dashpots 2 zeta sqrt(k m): sqrt(k_n A) = sqrt(pi k_n) R, sqrt(k_n I) half of that times R */
+        const real root_m = zeta * r * sqrt(t->m_eff[c]);
+        const real root_i = 0.5 * zeta * r * r * sqrt(t->inertia[c]);
+        const real normal = f_n - root_m * k[ROOT_N][c] * t->vn[c];
+        const struct arrow side = arrow_axpy(shear, -root_m * k[ROOT_S][c], v);
+        const struct arrow couple = arrow_axpy(bend, -root_i * k[ROOT_N][c], w_s);
+        const real about = twist - root_i * (real)1.4142135623730951 * k[ROOT_S][c] * w_n;
         touch_add_force(t, c, arrow_scale(all, arrow_axpy(side, normal, n)));
         touch_add_moment(t, c, arrow_scale(all, arrow_axpy(couple, about, n)));
     }
