@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "../solver/analysis.h"
 #include "../solver/coupling.h"
 #include "../forces/force.h"
@@ -87,17 +86,24 @@ static char *answers_allowed(const char *path)
     return text;
 }
 
+/* Whether the words "a | b | c" hold this one. */
+static bool is_listed(const char *allowed, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *at = strstr(allowed, word); at; at = strstr(at + 1, word))
+        if ((at == allowed || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0'))
+            return true;
+    return false;
+}
+
 /* The forces that the scene asks for, each checked; in make's notation. Free with xfree. */
 static char *read_forces(struct scene *scene, const char *allowed)
 {
     char *const names = force_names(scene_text(scene, "modules", NULL, "forces"));
     char *const copy = xstrdup(names), *rest = NULL;
-    for (char *word = strtok_r(copy, "+", &rest); word; word = strtok_r(NULL, "+", &rest)) {
-        char *const file = xprintf("forces/%s.c", word);
-        if (strcmp(word, "none") != 0 && access(file, R_OK) != 0)
+    for (char *word = strtok_r(copy, "+", &rest); word; word = strtok_r(NULL, "+", &rest))
+        if (strcmp(word, "none") != 0 && (strchr(word, '|') || !is_listed(allowed, word)))
             scene_error(scene, "modules", NULL, "forces", "%s is none of: %s", word, allowed);
-        xfree(file);
-    }
     xfree(copy);
     return names;
 }

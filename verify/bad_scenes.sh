@@ -169,6 +169,10 @@ with "another binary's scene" "command line: modules.drag = stokes: this binary 
 whole "module that does not exist" "command line: modules.drag = erghun: must be one of .*did you mean ergun" "$tmp/good.ini" modules.drag=erghun
 whole "poisson out of range" "command line: material beads.poisson = 0.6: must lie in \(-1, 0.5\]" "$tmp/good.ini" modules.contact=hertz_mindlin "material beads.poisson=0.6" "material beads.young=5 MPa"
 whole "module by a path" "modules.drag = ../drag/ergun: must be one of" "$tmp/good.ini" modules.drag=../drag/ergun
+whole "force that does not exist" "modules.forces = saffman, safman: safman is none of: brownian" "$tmp/good.ini" "modules.forces=saffman, safman"
+whole "force by a path" "modules.forces = ../drag/ergun: ../drag/ergun is none of: brownian" "$tmp/good.ini" modules.forces=../drag/ergun
+whole "force without a fluid" "modules.forces = saffman: there is no fluid to exert them" scenes/bounce.ini modules.forces=saffman
+whole "key of a force that is not asked for" "forces\\.saffman|\\[forces\\]: no such section" "$tmp/good.ini" forces.saffman=mei
 whole "slot that does not exist" "modules.drug = ergun: no such key \(did you mean modules.drag\?\)" "$tmp/good.ini" modules.drug=ergun
 whole "no such scene" "nosuch.ini: No such file" nosuch.ini
 : > "$tmp/empty.ini"
