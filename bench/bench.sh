@@ -27,9 +27,7 @@ for round in 1 2; do
         awk -v r="$rate" -v j="$j" 'BEGIN { printf "%-8d %20.2f M %10.2f M\n", j, r / 1e6, r / 1e6 / j }'
     done
 done
-for j in 1 $(nproc); do
-    OMP_NUM_THREADS=$j build/release/bench/kernels
-done
+build/release/bench/kernels
 OMP_NUM_THREADS=1 build/release/bench/answers
 make -s build/release/bench/fluid
 for j in 1 $(nproc); do

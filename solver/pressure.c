@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "feasibility.h"
 #include "krylov.h"
 
 enum { MOST = 3000 }; /* iterations */
@@ -523,13 +524,16 @@ struct solve pressure_solve(struct pressure *p, double *const c[3], double shift
     return result;
 }
 
-bool pressure_advice(const struct grid *g, char *text, size_t room)
+void pressure_feasibility(const struct grid *g, struct feasibility *f)
 {
     for (int a = 0; a < 2; a++)
-        if (g->n[a] > 1 && transform_good_size(g->n[a]) != g->n[a]) {
-            snprintf(text, room, "%d cells in %c have a large prime factor; %d are quicker",
-                     g->n[a], 'x' + a, transform_good_size(g->n[a]));
-            return true;
+        if (transform_largest_prime(g->n[a]) > TRANSFORM_QUICK) {
+            char name[64], note[96];
+            snprintf(name, sizeof name, "cells in %c, largest prime factor", 'x' + a);
+            snprintf(note, sizeof note,
+                     "the pressure solve is quicker with %d cells than with %d",
+                     transform_good_size(g->n[a]), g->n[a]);
+            feasibility_add(f, name, "1", transform_largest_prime(g->n[a]), TRANSFORM_QUICK,
+                            false, note);
         }
-    return false;
 }

@@ -50,7 +50,8 @@ void pressure_ghosts(const struct pressure *p, double *phi);
  * equation (0 otherwise). */
 double pressure_imbalance(const struct pressure *p, double shift, const double *rhs);
 
-/* Advice where a size of the grid makes the transforms slow, into text; false: none. */
-bool pressure_advice(const struct grid *g, char *text, size_t room);
+/* Advice where a size of the grid makes the transforms slow: a line of the report. */
+struct feasibility;
+void pressure_feasibility(const struct grid *g, struct feasibility *f);
 
 #endif

@@ -12,7 +12,7 @@ static bool mixed(enum poisson_side lo, enum poisson_side hi)
     return lo != hi;
 }
 
-static int largest_prime(int n)
+int transform_largest_prime(int n)
 {
     int largest = 1;
     for (int p = 2; p * p <= n; p++)
@@ -23,7 +23,7 @@ static int largest_prime(int n)
 
 static enum method method_of(int n, enum poisson_side lo, enum poisson_side hi)
 {
-    if (largest_prime(n) > TRANSFORM_PRIME)
+    if (transform_largest_prime(n) > TRANSFORM_PRIME)
         return METHOD_LIBRARY;
     if (lo == POISSON_PERIODIC)
         return METHOD_FOURIER;
@@ -32,7 +32,7 @@ static enum method method_of(int n, enum poisson_side lo, enum poisson_side hi)
 
 int transform_good_size(int n)
 {
-    while (largest_prime(n) > 13)
+    while (transform_largest_prime(n) > 13)
         n++;
     return n;
 }

@@ -55,7 +55,10 @@ void transform_free(struct transform *t);
 /* LIBRARY: in place on n x TRANSFORM_LINES values, aligned to 64 bytes. */
 void transform_library(const struct transform *t, bool back, double *lines);
 
-/* The least size from n on whose transform is quick: no prime factor above 13. */
+/* The least size from n on whose transform is quick: no prime factor above 13; up to
+ * TRANSFORM_QUICK it costs little. */
+enum { TRANSFORM_QUICK = 31 };
+int transform_largest_prime(int n);
 int transform_good_size(int n);
 
 #endif

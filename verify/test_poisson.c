@@ -142,8 +142,190 @@ static unsigned long conjugate(double contrast, bool layered, double *worst, int
     return h;
 }
 
+static const enum poisson_side of_sides[5][2] = {{POISSON_PERIODIC, POISSON_PERIODIC},
+                                                 {POISSON_NEUMANN, POISSON_NEUMANN},
+                                                 {POISSON_DIRICHLET, POISSON_DIRICHLET},
+                                                 {POISSON_NEUMANN, POISSON_DIRICHLET},
+                                                 {POISSON_DIRICHLET, POISSON_NEUMANN}};
+
+/* A field of a kind and a contrast on a grid, solved by a method. */
+struct problem {
+    struct domain d;
+    struct grid g;
+    enum poisson_side side[6];
+    double *rhs, *phi, *c[3];
+};
+
+enum kind { NOISE, SPHERES, BED, BUBBLING, SMOOTH };
+
+/* 0..1 */
+static double level(enum kind kind, const double x[3], double sphere[][3])
+{
+    bool inside = false;
+    for (int s = 0; s < 30; s++) {
+        double distance = 0.0;
+        for (int a = 0; a < 3; a++)
+            distance += (x[a] - sphere[s][a]) * (x[a] - sphere[s][a]);
+        inside = inside || distance < 0.15 * 0.15;
+    }
+    switch (kind) {
+    case NOISE:
+        return noise() + 0.5;
+    case SPHERES:
+        return inside ? 0.0 : 1.0;
+    case BED:
+        return x[2] < 0.47 ? 0.0 : 1.0;
+    case BUBBLING:
+        return inside || x[2] > 0.61 ? 1.0 : 0.0;
+    default:
+        return 0.5 + 0.25 * sin(5.1 * x[0] + 1.0) * cos(7.3 * x[1]) + 0.25 * sin(6.2 * x[2]);
+    }
+}
+
+static struct problem problem(const int n[3], int sides, enum kind kind, double contrast)
+{
+    struct problem q;
+    double sphere[30][3];
+    lcg = 4711;
+    for (int s = 0; s < 30; s++)
+        for (int a = 0; a < 3; a++)
+            sphere[s][a] = noise() + 0.5;
+    for (int a = 0, s = sides; a < 3; a++, s /= 5) {
+        q.side[2 * a] = of_sides[s % 5][0];
+        q.side[2 * a + 1] = of_sides[s % 5][1];
+    }
+    q.d = box(n, q.side);
+    grid_create(&q.g, &q.d);
+    double *const e = grid_field(&q.g);
+    q.rhs = grid_field(&q.g);
+    q.phi = grid_field(&q.g);
+    for (int k = 1; k <= n[2]; k++)
+        for (int j = 1; j <= n[1]; j++)
+            for (int i = 1; i <= n[0]; i++) {
+                const double x[3] = {(i - 0.5) / n[0], (j - 0.5) / n[1], (k - 0.5) / n[2]};
+                e[cell(&q.g, i, j, k)] = pow(contrast, level(kind, x, sphere));
+            }
+    grid_ghosts(&q.g, &q.d, e);
+    for (int a = 0; a < 3; a++) {
+        q.c[a] = grid_field(&q.g);
+        for (size_t m = (size_t)q.g.s[a]; m < q.g.total; m++) {
+            const double lo = e[m - (size_t)q.g.s[a]], hi = e[m];
+            q.c[a][m] = lo > 0.0 && hi > 0.0 ? 2.0 * lo * hi / (lo + hi) : 0.0;
+        }
+    }
+    fill_noise(&q.g, q.rhs);
+    xfree(e);
+    return q;
+}
+
+static void problem_free(struct problem *q)
+{
+    for (int a = 0; a < 3; a++)
+        xfree(q->c[a]);
+    xfree(q->rhs);
+    xfree(q->phi);
+}
+
+/* Converges within `most` iterations, and the residual is what it says, from scratch. */
+static void check_field(const int n[3], int sides, enum kind kind, double contrast,
+                        enum pressure_method method, double tolerance, int most)
+{
+    static const char *const kinds[] = {"noise", "spheres", "flat bed", "bubbling bed",
+                                        "smooth"};
+    static const char *const methods[] = {"auto", "box", "layers", "multigrid"};
+    struct problem q = problem(n, sides, kind, contrast);
+    struct pressure *const p = pressure_create(&q.g, &q.d, q.side);
+    pressure_method(p, method);
+    const struct solve r = pressure_solve(p, q.c, 0.0, q.rhs, q.phi, tolerance, 0.0);
+    const double left = residual(&q.g, p, q.c, 0.0, q.phi, q.rhs);
+    check(r.converged && r.iterations <= most && left < 30.0 * tolerance,
+          "%s, contrast %g, %d x %d x %d: %s in %d iterations (%s), residual %.2g", kinds[kind],
+          contrast, n[0], n[1], n[2], r.converged ? "solved" : "NOT solved", r.iterations,
+          methods[r.method], left);
+    pressure_free(p);
+    problem_free(&q);
+}
+
+/* Every pair of sides, with coefficients that vary: what a projection leaves, against 1e-10. */
+static void check_every_side(enum pressure_method method, const char *name)
+{
+    const int n[3] = {6, 5, 7};
+    double worst = 0.0;
+    int most = 0;
+    bool all = true;
+    for (int sides = 0; sides < 125; sides++) {
+        struct problem q = problem(n, sides, NOISE, 3.0);
+        struct pressure *const p = pressure_create(&q.g, &q.d, q.side);
+        pressure_method(p, method);
+        const struct solve r = pressure_solve(p, q.c, 0.0, q.rhs, q.phi, 1e-12, 0.0);
+        all = all && r.converged;
+        most = r.iterations > most ? r.iterations : most;
+        worst = fmax(worst, residual(&q.g, p, q.c, 0.0, q.phi, q.rhs));
+        pressure_free(p);
+        problem_free(&q);
+    }
+    check(all && worst < 1e-10,
+          "contrast 3, 125 pairs of sides, %s: residual %.2g, at most %d "
+          "iterations",
+          name, worst, most);
+}
+
+static unsigned long bits_of(int threads, enum pressure_method method, double contrast)
+{
+    const int n[3] = {31, 22, 27};
+    omp_set_num_threads(threads);
+    struct problem q = problem(n, 3 * 25 + 5, BUBBLING, contrast);
+    struct pressure *const p = pressure_create(&q.g, &q.d, q.side);
+    pressure_method(p, method);
+    pressure_solve(p, q.c, 0.0, q.rhs, q.phi, 1e-9, 0.0);
+    unsigned long h = 14695981039346656037ul;
+    for (size_t b = 0; b < q.g.total * sizeof(double); b++)
+        h = (h ^ ((const unsigned char *)q.phi)[b]) * 1099511628211ul;
+    pressure_free(p);
+    problem_free(&q);
+    return h;
+}
+
+static void check_threads(void)
+{
+    static const char *const names[] = {"", "box", "layers", "multigrid"};
+    for (int method = PRESSURE_BOX; method <= PRESSURE_MULTIGRID; method++)
+        for (int fine = 0; fine < 2; fine++) { /* single, then double precision inside */
+            const double contrast = fine ? 2e3 : 20.0;
+            const unsigned long one = bits_of(1, (enum pressure_method)method, contrast);
+            bool same = true;
+            for (int threads = 2; threads <= 7; threads = threads == 3 ? 7 : threads + 1)
+                same = same && bits_of(threads, (enum pressure_method)method, contrast) == one;
+            check(same, "%s, contrast %g: the same bits on 1, 2, 3, 7 threads", names[method],
+                  contrast);
+        }
+}
+
+static void check_fields(void)
+{
+    const int n[3] = {32, 32, 32}, odd[3] = {23, 17, 29}, flat[3] = {48, 1, 37};
+    const int closed = 31, open = 3 * 25; /* walls all round; periodic, open above */
+    check_field(n, open, SMOOTH, 3.0, PRESSURE_AUTO, 1e-6, 11);
+    check_field(n, open, SPHERES, 3.0, PRESSURE_AUTO, 1e-6, 12);
+    check_field(n, open, BUBBLING, 3.0, PRESSURE_AUTO, 1e-6, 12);
+    check_field(n, open, BED, 3.0, PRESSURE_LAYERS, 1e-6, 4);
+    check_field(n, open, BED, 1e6, PRESSURE_LAYERS, 1e-6, 4);
+    check_field(n, closed, SPHERES, 100.0, PRESSURE_AUTO, 1e-6, 25);
+    check_field(n, closed, BUBBLING, 1e3, PRESSURE_AUTO, 1e-6, 80);
+    check_field(n, closed, NOISE, 1e6, PRESSURE_AUTO, 1e-6, 120);
+    check_field(n, closed, SPHERES, 1e6, PRESSURE_AUTO, 1e-6, 150);
+    check_field(n, closed, BUBBLING, 1e6, PRESSURE_AUTO, 1e-6, 200);
+    check_field(n, 0, SMOOTH, 1e6, PRESSURE_AUTO, 1e-6, 40);
+    check_field(odd, closed, NOISE, 100.0, PRESSURE_MULTIGRID, 1e-11, 25);
+    check_field(odd, 0, SPHERES, 100.0, PRESSURE_MULTIGRID, 1e-11, 60);
+    check_field(odd, 86, NOISE, 1e6, PRESSURE_MULTIGRID, 1e-6, 120);
+    check_field(flat, closed, NOISE, 1e3, PRESSURE_MULTIGRID, 1e-8, 40);
+    check_field(flat, open, BUBBLING, 3.0, PRESSURE_AUTO, 1e-12, 25);
+}
+
 int main(void)
 {
+    omp_set_num_threads(2);
     check_direct((const int[3]){7, 6, 9}, 0.0);
     check_direct((const int[3]){8, 5, 4}, 3.7);
     check_direct((const int[3]){1, 11, 6}, 0.0);
@@ -167,6 +349,11 @@ int main(void)
     conjugate(1e6, true, &worst, &iterations);
     check(iterations > 0 && iterations < 30 && worst < 1e-6,
           "two layers, contrast 1e6: residual %.2g in %d iterations", worst, iterations);
+    check_every_side(PRESSURE_BOX, "box");
+    check_every_side(PRESSURE_LAYERS, "layers");
+    check_every_side(PRESSURE_MULTIGRID, "multigrid");
+    check_fields();
+    check_threads();
     omp_set_num_threads(1);
     const unsigned long one = conjugate(10.0, false, &worst, &iterations);
     const int threads[] = {2, 3, 7, 16};
