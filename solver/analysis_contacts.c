@@ -23,9 +23,9 @@ struct list {
 
 static void *create(struct sim *s, struct scene *scene)
 {
-    (void)s;
     if (scene_choice(scene, "output", NULL, "contacts") != 1)
         return NULL;
+    contact_view_wanted(s);
     return xalloc(1, sizeof(struct list));
 }
 

@@ -52,6 +52,7 @@ static void *create(struct sim *s, struct scene *scene)
     if (!on)
         return NULL;
     struct coordination *const c = xalloc(1, sizeof *c);
+    contact_view_wanted(s);
     c->least = least;
     c->count = xalloc((size_t)s->grains.capacity + 1, sizeof *c->count);
     grains_follow(&s->grains, (void **)&c->bearing, sizeof *c->bearing);

@@ -69,6 +69,7 @@ static void *create(struct sim *s, struct scene *scene)
     const int n = scene_names(scene, "region", &names);
     if (n == 0)
         return NULL;
+    contact_view_wanted(s);
     struct state *const p = xalloc(1, sizeof *p);
     p->regions.n = n;
     p->regions.region = xalloc((size_t)n, sizeof *p->regions.region);

@@ -98,6 +98,7 @@ static void *create(struct sim *s, struct scene *scene)
     const int n = scene_names(scene, "surface", &names);
     if (n == 0)
         return NULL;
+    contact_view_wanted(s);
     struct state *const p = xalloc(1, sizeof *p);
     p->n = n;
     p->surface = xalloc((size_t)n, sizeof *p->surface);

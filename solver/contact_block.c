@@ -274,7 +274,7 @@ static void store(const struct sim *s, struct block *b, int first, struct sums *
     }
 }
 
-/* Counts, energy, the largest overlap; the force of each wall contact. */
+/* Counts, energy, the largest overlap; the forces of single contacts where someone looks. */
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
     const double reach = s->neighbours.reach;
@@ -284,8 +284,11 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;
         r->touching += depth > -reach;
         r->overlap = fmax(r->overlap, depth / fmin(ri, rj));
-        if (b->to[c] < 0)
-            s->contacts->wall_slot[b->live[c] - s->neighbours.walls.live] = wide(b->row[0][c]);
+        if (s->contacts->watched) {
+            const int list = b->to[c] < 0;
+            const struct slots *const l = list ? &s->neighbours.walls : &s->neighbours.pairs;
+            s->contacts->seen[list][b->live[c] - l->live] = wide(b->row[0][c]);
+        }
     }
 }
 

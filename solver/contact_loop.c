@@ -53,7 +53,8 @@ void contact_free(struct sim *s)
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
-    xfree(s->contacts->wall_slot);
+    xfree(s->contacts->seen[0]);
+    xfree(s->contacts->seen[1]);
     xfree(s->contacts);
 }
 
@@ -82,10 +83,24 @@ static void flush_sums(struct sim *s)
     }
 }
 
+/* Room for the forces of single contacts. */
+static void prepare_seen(struct contact_work *w, int list, size_t slots)
+{
+    if (slots <= w->seen_room[list])
+        return;
+    w->seen_room[list] = slots + slots / 16 + 64;
+    xfree(w->seen[list]);
+    w->seen[list] = xalloc(w->seen_room[list], sizeof *w->seen[list]);
+}
+
 void contact_prepare(struct sim *s)
 {
     struct contact_work *const w = s->contacts;
     const struct neighbours *const nb = &s->neighbours;
+    if (w->watched) {
+        prepare_seen(w, 0, nb->pairs.n);
+        prepare_seen(w, 1, nb->walls.n);
+    }
     flush_sums(s);
     if (nb->runs > w->runs) {
         w->runs = nb->runs + nb->runs / 4;
@@ -96,11 +111,6 @@ void contact_prepare(struct sim *s)
         w->report = xalloc((size_t)w->runs, sizeof *w->report);
         w->wall_force = xalloc(sums, sizeof *w->wall_force);
         w->wall_sum = xalloc(sums, sizeof *w->wall_sum);
-    }
-    if (nb->walls.n > w->wall_slots) {
-        w->wall_slots = nb->walls.n + nb->walls.n / 16 + 64;
-        xfree(w->wall_slot);
-        w->wall_slot = xalloc(w->wall_slots, sizeof *w->wall_slot);
     }
     if (nb->pairs.n > w->capacity) {
         w->capacity = nb->pairs.n + nb->pairs.n / 16 + 64;

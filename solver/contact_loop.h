@@ -14,11 +14,13 @@ struct contact_work {
     struct sums *own;      /* per grain, of the contacts that it owns */
     struct report *report; /* per run */
     double4 *wall_force;   /* per run and wall: N, on the wall, at the step at hand */
-    double4 *wall_slot;    /* per wall slot: N, on its grain; at a step that was asked for */
-    size_t wall_slots;     /* room of it */
     double4 *wall_sum;     /* the same, over the steps since it was last collected */
-    int runs;              /* room of the three */
-    int too_deep;          /* some contact of the last step is deeper than run.overlap_max */
+    bool watched;          /* someone looks at single contacts (contact_view.h) */
+    double4 *seen[2]; /* then, per slot of pairs, of walls: N, on the owner, at the last step
+                              that was asked for */
+    size_t seen_room[2];
+    int runs;     /* room of the three */
+    int too_deep; /* some contact of the last step is deeper than run.overlap_max */
 };
 
 /* Initialises the laws (parameters from the scene) and the scratch of the loop. */

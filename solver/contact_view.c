@@ -73,9 +73,7 @@ static void look(const struct sim *s, const struct slots *l, bool walls, const i
         v->point = v3_add(s->grains.pos[v->i], lever);
         v->branch = walls ? v3_scale(-1.0, lever)
                           : v3((double)c.dx[k], (double)c.dy[k], (double)c.dz[k]);
-        v->force = walls ? of4(s->contacts->wall_slot[slot[k]])
-                         : of4(__builtin_convertvector(
-                               s->contacts->record[s->neighbours.to[slot[k]]].force, double4));
+        v->force = of4(s->contacts->seen[walls][slot[k]]);
         v->normal_force = v3_dot(v->force, v->normal);
     }
 }
@@ -132,6 +130,11 @@ void contact_view_take(const struct sim *s, struct contact_view *v)
         if (first[r + 1] > first[r])
             look_run(s, list[r / nb->runs], r >= nb->runs, r % nb->runs, v->seen + first[r]);
     xfree(first);
+}
+
+void contact_view_wanted(struct sim *s)
+{
+    s->contacts->watched = true;
 }
 
 const struct contact_view *contact_view(struct sim *s)

@@ -1,9 +1,9 @@
 /* contact_view.h - the contacts as analysis wants to see them: who touches whom, where, how hard.
  *
- * A view is taken when it is asked for, from what the last step left behind (the records of the
- * pairs, the forces of the wall contacts, the places of the grains); the contact loop knows
- * nothing of it and does nothing for it. Contacts stand in the order of the slots, pairs first:
- * the same on any number of threads. */
+ * A view is taken when it is asked for, from the places of the grains and the force per slot that
+ * the contact loop keeps where some part of the analysis watches (s->contacts->watched, set by
+ * contact_view_wanted); a scene that asks for none of it pays nothing. Contacts stand in the order
+ * of the slots, pairs first: the same on any number of threads. */
 #ifndef CONTACT_VIEW_H
 #define CONTACT_VIEW_H
 
@@ -32,6 +32,9 @@ struct contact_view {
 /* The contacts after the last step; taken once per step. The view belongs to the sim's analysis
  * and is good until the next step. */
 const struct contact_view *contact_view(struct sim *s);
+
+/* To be called before the start by whoever will look. */
+void contact_view_wanted(struct sim *s);
 
 /* Fills `v` anew; its owner frees v->seen with xfree. */
 void contact_view_take(const struct sim *s, struct contact_view *v);

@@ -105,6 +105,7 @@ static void summarise(struct sim *s, double begin)
     summary_number(&s->summary, "steps", (double)s->step, "1");
     summary_number(&s->summary, "grain_steps", (double)s->substep * s->grains.n, "1");
     const double loop = s->timers.seconds[TIME_MOTION] + s->timers.seconds[TIME_NEIGHBOURS] +
+                        s->timers.seconds[TIME_SORT] + s->timers.seconds[TIME_SEARCH] +
                         s->timers.seconds[TIME_CONTACTS] + s->timers.seconds[TIME_GATHER];
     if (s->substep > 0 && loop > 0.0)
         summary_number(&s->summary, "grain_steps_per_second",

@@ -305,12 +305,15 @@ void neighbours_rebuild(struct sim *s)
 {
     struct neighbours *const nb = &s->neighbours;
     struct search c;
+    double clock = wall_clock();
     choose_skins(s);
     int *const order = search_sort(&c, s, nb->reach + nb->skin);
     nb->runs = (s->grains.n + RUN - 1) / RUN;
     bodies_sort(s, order);
+    clock = timer_add(&s->timers, TIME_SORT, clock);
     make_slots(s, &c, order, true);
     make_slots(s, &c, order, false);
+    clock = timer_add(&s->timers, TIME_SEARCH, clock);
     list_incoming(nb, s->grains.n);
     nb->listed = s->grains.n;
     nb->moved = 0.0;
@@ -318,4 +321,5 @@ void neighbours_rebuild(struct sim *s)
     nb->builds++;
     xfree(order);
     search_free(&c);
+    timer_add(&s->timers, TIME_NEIGHBOURS, clock);
 }

@@ -28,6 +28,9 @@ picture_scene(const struct run_file *r); /* "packed_bed" for scenes/packed_bed.i
  * height. Draws nothing where there are no grains. */
 void picture_bed(const struct run_file *r);
 
+/* force_chains.png, where the run has listed its contacts (output.contacts = on). */
+void picture_chains(const struct run_file *r);
+
 /* velocity.png, pressure.png, porosity.png: slices through the fluid at the last output. Draws
  * nothing where there is no fluid, or where it is less than two cells wide in two directions. */
 void picture_slices(const struct run_file *r);

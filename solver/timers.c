@@ -3,8 +3,9 @@
 
 #include "base.h"
 
-const char *const timer_name[TIMERS] = {"sense",    "fluid",  "load",   "motion", "neighbours",
-                                        "contacts", "gather", "ledger", "output"};
+const char *const timer_name[TIMERS] = {"sense",  "fluid",  "load",  "motion",
+                                        "sort",   "search", "lists", "contacts",
+                                        "gather", "ledger", "output"};
 
 double timer_add(struct timers *t, enum timer which, double since)
 {

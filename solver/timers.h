@@ -7,7 +7,9 @@ enum timer {
     TIME_FLUID,
     TIME_LOAD,
     TIME_MOTION,
-    TIME_NEIGHBOURS,
+    TIME_SORT,       /* grains in memory, with the search grid */
+    TIME_SEARCH,     /* pairs and walls near each other, memory of contacts carried over */
+    TIME_NEIGHBOURS, /* the rest of a rebuild: who gathers from where, room */
     TIME_CONTACTS,
     TIME_GATHER,
     TIME_LEDGER,

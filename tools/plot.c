@@ -267,6 +267,7 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_IGN); /* a gnuplot that ends early shows in its status */
     draw_figures(&r);
     picture_bed(&r);
+    picture_chains(&r);
     picture_slices(&r);
     draw_series(&r);
     run_close(&r);
