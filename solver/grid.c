@@ -29,10 +29,12 @@ double *grid_field(const struct grid *g)
  * included. */
 static void copy_layer(const struct grid *g, double *f, int a, int to, int from)
 {
-    const int b = (a + 1) % 3, c = (a + 2) % 3;
-    for (int k = 0; k <= g->n[c] + 1; k++)
-        for (int j = 0; j <= g->n[b] + 1; j++) {
-            const int at = j * g->s[b] + k * g->s[c];
+    const int near = a == 0 ? 1 : 0,
+              far = a == 2 ? 1 : 2; /* the other two, as memory has them */
+#pragma omp parallel for schedule(static) if (g->total > GRID_SMALL)
+    for (int k = 0; k <= g->n[far] + 1; k++)
+        for (int j = 0; j <= g->n[near] + 1; j++) {
+            const int at = j * g->s[near] + k * g->s[far];
             f[at + to * g->s[a]] = f[at + from * g->s[a]];
         }
 }

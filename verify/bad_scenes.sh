@@ -95,6 +95,13 @@ whole() {
 bad="$tmp/bad.ini"
 edit "unknown key" 's/^viscosity/viscositty/' "$bad:25: fluid.viscositty = 1 mPa s: no such key \(did you mean fluid.viscosity\?\)"
 edit "unknown section" 's/^\[flow\]/[flwo]/' "$bad:27: \[flwo\]: no such section \(did you mean flow\?\)"
+with "form c gives no pressure force" "coupling.viscous = on: fluid.form = c has it in the drag" fluid.form=c coupling.viscous=on
+with "a table that is not there" "flow.table = nowhere.csv: no such file" flow.table=nowhere.csv
+with "a rate along a side" "flow.rate = 0 0 1 mm/s: drives periodic directions only" "flow.rate=0 0 1 mm/s"
+with "a rate and a gradient" "contradicts flow.rate" "flow.rate=1 0 0 mm/s" "flow.pressure_gradient=1 0 0 Pa/m"
+with "a probe outside" "probe a.at = 0 0 30 mm: lies outside the box in z" "probe a.at=0 0 30 mm"
+with "a line without its end" "probe a.to: must differ from probe.at" "probe a.kind=line"
+with "an inflow of a wall" "only a side of kind inflow takes it" "side x-.inflow=1 mm/s"
 edit "repeated key" '/^count/a count = 60' "$bad:18: grains beads.count = 60: given twice, first in line 17"
 edit "repeated section" '/^\[run\]/i [fluid]\ndensity = 900 kg/m3' "$bad:29: \[fluid\]: given twice, first in line 23"
 edit "wrong dimension" 's/2500 kg\/m3/2500 kg/' "$bad:16: grains beads.density = 2500 kg: .*wrong dimension.*kg m-3"
