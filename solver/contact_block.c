@@ -10,6 +10,13 @@
 #include "contact_loop.h"
 #include "sim.h"
 
+void block_open(struct block *b)
+{
+    b->n = 0;
+    b->fresh = b->walls = false;
+    memset(b->t.pair, 0, sizeof b->t.pair); /* left so where there is one material */
+}
+
 /* Lanes without a contact of their own repeat the last one: numbers that laws can take. */
 static int pad(struct block *b)
 {
@@ -25,7 +32,7 @@ static int pad(struct block *b)
         b->full[n] = b->full[last];
         b->spin_i[n] = b->spin_i[last];
         b->spin_j[n] = b->spin_j[last];
-        b->pair[n] = b->pair[last];
+        b->t.pair[n] = b->t.pair[last];
     }
     return n;
 }
@@ -99,42 +106,44 @@ static void starts(struct block *b)
 {
     for (int c = 0; c < b->t.n; c++)
         b->t.start[c] = 1.0;
-    for (int c = 0; c < b->n; c++)
+    for (int c = 0; c < b->n && b->fresh; c++)
         if (!*b->live[c])
             b->t.start[c] = first_part(&b->t, c);
 }
 
-static inline __attribute__((always_inline)) void load_rows(struct block *b, int rows)
-{
-    for (int c = 0; c < b->t.n; c++)
-        for (int k = 0; k < rows; k++)
-            b->history[k][c] = b->memory[c][k];
-}
-
+/* The memory of a slot is a number of fours: taken as such, then turned. */
 static void load_memory(struct block *b, int rows)
 {
-    switch (rows) { /* the common numbers unrolled */
-    case 0:
-        break;
-    case 3:
-        load_rows(b, 3);
-        break;
-    case 4:
-        load_rows(b, 4);
-        break;
-    case 7:
-        load_rows(b, 7);
-        break;
-    default:
-        load_rows(b, rows);
+    const real *const restrict row = (const real *)b->row[0];
+    for (int k = 0; k < rows; k += 4) {
+        real(*const h)[TOUCH] = &b->history[k];
+        for (int c = 0; c < b->t.n; c++)
+            memcpy(&b->row[0][c], b->memory[c] + k, sizeof(real4));
+#pragma omp simd
+        for (int c = 0; c < b->t.n; c++) {
+            h[0][c] = row[4 * c];
+            h[1][c] = row[4 * c + 1];
+            h[2][c] = row[4 * c + 2];
+            h[3][c] = row[4 * c + 3];
+        }
     }
 }
 
-static inline __attribute__((always_inline)) void store_rows(struct block *b, int rows)
+static void store_memory(struct block *b, int rows)
 {
-    for (int c = 0; c < b->n; c++)
-        for (int k = 0; k < rows; k++)
-            b->memory[c][k] = b->history[k][c];
+    real *const restrict row = (real *)b->row[0];
+    for (int k = 0; k < rows; k += 4) {
+        real(*const h)[TOUCH] = &b->history[k];
+#pragma omp simd
+        for (int c = 0; c < b->t.n; c++) {
+            row[4 * c] = h[0][c];
+            row[4 * c + 1] = h[1][c];
+            row[4 * c + 2] = h[2][c];
+            row[4 * c + 3] = h[3][c];
+        }
+        for (int c = 0; c < b->n; c++)
+            memcpy(b->memory[c] + k, &b->row[0][c], sizeof(real4));
+    }
 }
 
 /* What laws ask for only some of the time. */
@@ -242,34 +251,50 @@ static void guard(const struct block *b, real most, struct report *r)
     r->too_deep = r->too_deep || deep;
 }
 
-static void store(const struct sim *s, struct block *b, int first, struct sums *own,
-                  struct report *r, double4 *wall_force)
+/* What is remembered, and whether there is a contact at all. */
+static void keep(const struct sim *s, struct block *b)
 {
     const real reach = (real)s->neighbours.reach;
     const size_t size = (size_t)s->neighbours.rows * sizeof(real);
-    struct record *const record = s->contacts->record;
+    store_memory(b, s->neighbours.rows);
     for (int c = 0; c < b->n; c++) {
         const bool touches = b->t.depth[c] > -reach;
         *b->live[c] = touches;
         if (!touches)
             memset(b->memory[c], 0, size);
-        struct sums *const sums = &own[b->c.i[c] - first];
-        const double4 force = wide(b->row[0][c]);
-        sums->force += force;
-        sums->torque += wide(b->row[1][c]);
-        if (b->to[c] >= 0) {
-            record[b->to[c]].force = b->row[0][c];
-            record[b->to[c]].torque = b->row[2][c];
-        } else {
-            wall_force[-1 - b->to[c]] -= force;
-        }
     }
-    if (s->grains.n_frozen == 0)
-        return;
+}
+
+/* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
+ * an addition to what was just added to must wait for it. */
+static void add(struct block *b, struct sums *sums, double4 *wall_force)
+{
+    enum { STRIDE = 8 };
+    for (int start = 0; start < STRIDE; start++)
+        for (int c = start; c < b->n; c += STRIDE) {
+            const double4 force = wide(b->row[0][c]);
+            struct sums *const from = &sums[b->from[c]];
+            from->force += force;
+            from->torque += wide(b->row[1][c]);
+            if (b->walls && b->to[c] < 0) {
+                wall_force[-1 - b->to[c]] -= force;
+                continue;
+            }
+            struct sums *const to = &sums[b->to[c]];
+            to->force -= force;
+            to->torque += wide(b->row[2][c]);
+        }
+}
+
+/* Forces on frozen grains by the others. */
+static void add_skeleton(const struct grains *g, const struct block *b, struct report *r)
+{
     for (int c = 0; c < b->n; c++) {
-        if (b->to[c] >= 0 && s->grains.inv_mass[b->c.i[c]] == 0.0)
+        if (b->to[c] < 0)
+            continue;
+        if (g->inv_mass[b->c.i[c]] == 0.0)
             r->skeleton += wide(b->row[0][c]);
-        else if (b->to[c] >= 0 && s->grains.inv_mass[b->c.j[c]] == 0.0)
+        else if (g->inv_mass[b->c.j[c]] == 0.0)
             r->skeleton -= wide(b->row[0][c]);
     }
 }
@@ -292,8 +317,8 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
     }
 }
 
-void block_work(struct sim *s, struct block *b, int first, struct sums *own,
-                struct report *report, double4 *wall_force, bool asked)
+void block_work(struct sim *s, struct block *b, struct sums *sums, struct report *report,
+                double4 *wall_force, bool asked)
 {
     const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
     b->c.n = b->t.n = pad(b);
@@ -303,25 +328,12 @@ void block_work(struct sim *s, struct block *b, int first, struct sums *own,
     shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
     velocities(b);
     starts(b);
-    memcpy(b->t.pair, b->pair, sizeof b->t.pair);
     load_memory(b, s->neighbours.rows);
     extras(&s->grains, b, needs);
     if (bond_history > 0)
         memset(b->t.broke, 0, sizeof b->t.broke);
     apply_laws(b);
-    switch (s->neighbours.rows) {
-    case 3:
-        store_rows(b, 3);
-        break;
-    case 4:
-        store_rows(b, 4);
-        break;
-    case 7:
-        store_rows(b, 7);
-        break;
-    default:
-        store_rows(b, s->neighbours.rows);
-    }
+    keep(s, b);
     if (needs & TOUCH_COUPLES)
         pack(b, true);
     else
@@ -329,6 +341,9 @@ void block_work(struct sim *s, struct block *b, int first, struct sums *own,
     guard(b, (real)s->run.overlap_max, report);
     if (asked)
         report_all(s, b, report);
-    store(s, b, first, own, report, wall_force);
+    add(b, sums, wall_force);
+    if (s->grains.n_frozen > 0)
+        add_skeleton(&s->grains, b, report);
     b->n = 0;
+    b->fresh = b->walls = false;
 }

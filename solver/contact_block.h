@@ -22,34 +22,34 @@ struct report {
     bool too_deep;        /* a contact is deeper than run.overlap_max */
 };
 
-struct record { /* of a pair slot, for its other grain */
-    real4 force, torque;
-};
-
-struct sums { /* of the contacts that a grain owns */
-    double4 force, torque;
+struct sums {              /* of the contacts of a grain in one run */
+    double4 force, torque; /* N, N m */
 };
 
 struct block {
     int n;                              /* contacts so far, TOUCH at most */
     struct candidates c;                /* the same, as shapes see them */
-    int to[TOUCH];                      /* place of the record; -1 - index of a wall */
+    bool fresh, walls;                  /* some contact is new; some is with a wall */
+    int from[TOUCH];                    /* grain i in the sums of the run */
+    int to[TOUCH];                      /* grain j there; -1 - index of a wall */
     unsigned char *live[TOUCH];         /* of the slot */
     real *memory[TOUCH];                /* of the slot */
     coordinate4 d[TOUCH];               /* place i - place j */
     real4 v[TOUCH];                     /* vel i - vel j; sum of inverse masses */
     real4 full[TOUCH];                  /* full i - full j */
     real4 spin_i[TOUCH], spin_j[TOUCH]; /* with the radii */
-    int pair[TOUCH];                    /* pair of materials */
     struct touch t;
     struct levers l;
     real history[HISTORY_MAX][TOUCH];
     real4 row[3][TOUCH]; /* force, torques on i and j, on their way out */
 };
 
-/* Works the block: shape, laws, memory. Adds forces to own[i - first], to the records, to the
- * report and to those on the walls (N, per wall), and empties the block. `asked`: energy and counts are wanted. */
-void block_work(struct sim *s, struct block *b, int first, struct sums *own,
-                struct report *report, double4 *wall_force, bool asked);
+void block_open(struct block *b);
+
+/* Works the block: shape, laws, memory. Adds forces to the sums of the run, to the report and to
+ * those on the walls (N, per wall), and empties the block. `asked`: energy and counts are
+ * wanted. */
+void block_work(struct sim *s, struct block *b, struct sums *sums, struct report *report,
+                double4 *wall_force, bool asked);
 
 #endif

@@ -1,11 +1,11 @@
 /* contact_loop.c - the contact loop.
  *
- * The lists of slots are cut into fixed runs of grains. A thread takes a run, looks at its
- * active slots and works them through shape and laws in blocks (contact_block.c). The forces on
- * the owner of a slot, a grain of the run, are summed at once; those on the other grain go to
- * the record of the slot, which stands beside the others of that grain, and are summed when it
- * moves. No two threads write to one place, and no sum depends on who computed what: the same
- * bits on any number of threads. */
+ * The lists of slots are cut into fixed runs of grains that lie close together. A thread takes
+ * a run, looks at its active slots and works them through shape and laws in blocks
+ * (contact_block.c). The forces go to sums that belong to the run: one for each of its grains and
+ * one for each grain of other runs that its slots name, its halo. When a grain moves, it gathers
+ * its sum and those in the halos, in the order of the runs. No two threads write to one place,
+ * and no sum depends on who computed what: the same bits on any number of threads. */
 #include "contact_loop.h"
 
 #include <string.h>
@@ -18,8 +18,9 @@
 
 int contact_rows(void)
 {
-    return contact_history + rolling_history + cohesion_history + lubrication_history +
-           bond_history;
+    const int rows = contact_history + rolling_history + cohesion_history +
+                     lubrication_history + bond_history;
+    return (rows + 3) / 4 * 4;
 }
 
 double contact_reach(void)
@@ -41,15 +42,13 @@ void contact_create(struct sim *s, struct scene *scene)
     bond_init(scene, &materials);
     xfree(names);
     s->contacts = xalloc(1, sizeof *s->contacts);
-    grains_follow(g, (void **)&s->contacts->own, sizeof *s->contacts->own);
 }
 
 void contact_free(struct sim *s)
 {
     if (!s->contacts)
         return;
-    xfree(s->contacts->record);
-    xfree(s->contacts->own);
+    xfree(s->contacts->sums);
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
@@ -112,16 +111,12 @@ void contact_prepare(struct sim *s)
         w->wall_force = xalloc(sums, sizeof *w->wall_force);
         w->wall_sum = xalloc(sums, sizeof *w->wall_sum);
     }
-    if (nb->pairs.n > w->capacity) {
-        w->capacity = nb->pairs.n + nb->pairs.n / 16 + 64;
-        xfree(w->record);
-        w->record = xalloc(w->capacity, sizeof *w->record);
-        return;
+    const size_t entries = neighbours_entry(nb, nb->runs, 0);
+    if (entries > w->capacity) {
+        w->capacity = entries + entries / 16 + 64;
+        xfree(w->sums);
+        w->sums = xalloc(w->capacity, sizeof *w->sums);
     }
-    if (w->record)
-#pragma omp parallel for schedule(static)
-        for (size_t k = 0; k < nb->pairs.n; k++)
-            w->record[k] = (struct record){0};
 }
 
 /* The contact of a slot is over: nothing is remembered, nothing acts. */
@@ -162,10 +157,8 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
             const bool near = gap[k] < 0.0;
             active[n] = from + k;
             n += near;
-            if (!near && l->live[from + k]) {
+            if (!near && l->live[from + k])
                 end_contact(nb, l, from + k);
-                s->contacts->record[nb->to[from + k]] = (struct record){0};
-            }
         }
     }
     l->n_active[run] = n;
@@ -193,12 +186,14 @@ static void choose_walls(struct sim *s, int run, int first, int last)
 static inline int enter(struct block *b, struct slots *l, int rows, int slot)
 {
     const int c = b->n++;
+    b->fresh |= !l->live[slot];
     b->live[c] = &l->live[slot];
     b->memory[c] = &l->memory[(size_t)slot * rows];
     return c;
 }
 
-static inline void block_pair(struct block *b, const struct sim *s, struct slots *l, int slot)
+static inline void block_pair(struct block *b, const struct sim *s, struct slots *l, int slot,
+                              int first)
 {
     static const real4 but_mass = {-1.0, -1.0, -1.0, 1.0}; /* inverse masses add up */
     const int c = enter(b, l, s->neighbours.rows, slot);
@@ -207,16 +202,19 @@ static inline void block_pair(struct block *b, const struct sim *s, struct slots
     b->c.i[c] = i;
     b->c.j[c] = j;
     b->c.wall[c] = NULL;
+    b->from[c] = i - first;
     b->to[c] = s->neighbours.to[slot];
     b->d[c] = bi->place - bj->place;
     b->v[c] = bi->vel + but_mass * bj->vel;
     b->full[c] = bi->full - bj->full;
     b->spin_i[c] = bi->spin;
     b->spin_j[c] = bj->spin;
-    b->pair[c] = (int)bi->full[3] * s->grains.n_materials + (int)bj->full[3];
+    if (s->grains.n_materials > 1)
+        b->t.pair[c] = (int)bi->full[3] * s->grains.n_materials + (int)bj->full[3];
 }
 
-static inline void block_wall(struct block *b, const struct sim *s, struct slots *l, int slot)
+static inline void block_wall(struct block *b, const struct sim *s, struct slots *l, int slot,
+                              int first)
 {
     const int c = enter(b, l, s->neighbours.rows, slot);
     const int i = l->owner[slot], element = l->other[slot];
@@ -227,31 +225,15 @@ static inline void block_wall(struct block *b, const struct sim *s, struct slots
     const real4 moving = {(real)v.x, (real)v.y, (real)v.z, 0.0};
     b->c.i[c] = b->c.j[c] = i;
     b->c.wall[c] = wall;
+    b->from[c] = i - first;
     b->to[c] = -1 - element;
+    b->walls = true;
     b->d[c] = frame_place(&s->frame, d) - frame_place(&s->frame, v3(0.0, 0.0, 0.0));
     b->v[c] = bi->vel - moving;
     b->full[c] = bi->full - moving;
     b->spin_i[c] = bi->spin;
     b->spin_j[c] = (real4){0.0, 0.0, 0.0, 0.0};
-    b->pair[c] = (int)bi->full[3] * s->grains.n_materials + wall->material;
-}
-
-enum { AHEAD = 16 }; /* slots to fetch ahead: the other grain may be far in memory */
-
-static inline void fetch(const struct sim *s, const struct slots *l, bool pairs,
-                         const int *active, int k, int n)
-{
-    if (k >= n)
-        return;
-    const int slot = active[k];
-    __builtin_prefetch(&l->memory[(size_t)slot * s->neighbours.rows]);
-    if (pairs) {
-        const char *const body = (const char *)&s->bodies[l->other[slot]];
-        __builtin_prefetch(body);
-        if (sizeof(struct body) > 64)
-            __builtin_prefetch(body + 64);
-        __builtin_prefetch(&s->contacts->record[s->neighbours.to[slot]], 1);
-    }
+    b->t.pair[c] = (int)bi->full[3] * s->grains.n_materials + wall->material;
 }
 
 static void work_run(struct sim *s, int run, bool choose, bool asked)
@@ -264,12 +246,14 @@ static void work_run(struct sim *s, int run, bool choose, bool asked)
     const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
     const bool walls = nb->walls.begin[last] > nb->walls.begin[first];
     struct block b;
-    b.n = 0;
+    block_open(&b);
     if (choose) {
         choose_pairs(s, run, first, last);
         choose_walls(s, run, first, last);
     }
-    memset(&w->own[first], 0, (size_t)(last - first) * sizeof *w->own);
+    const int halo = nb->halo_begin[run + 1] - nb->halo_begin[run];
+    struct sums *const sums = &w->sums[neighbours_entry(nb, run, 0)];
+    memset(sums, 0, (size_t)(RUN + halo) * sizeof *sums);
     if (walls || choose)
         memset(wall_force, 0, (size_t)s->walls.n * sizeof *wall_force);
     r->touching = 0;
@@ -280,17 +264,16 @@ static void work_run(struct sim *s, int run, bool choose, bool asked)
         struct slots *const l = list == 0 ? &nb->pairs : &nb->walls;
         const int *const active = &l->active[l->begin[first]];
         for (int k = 0; k < l->n_active[run]; k++) {
-            fetch(s, l, list == 0, active, k + AHEAD, l->n_active[run]);
             if (list == 0)
-                block_pair(&b, s, l, active[k]);
+                block_pair(&b, s, l, active[k], first);
             else
-                block_wall(&b, s, l, active[k]);
+                block_wall(&b, s, l, active[k], first);
             if (b.n == TOUCH)
-                block_work(s, &b, first, &w->own[first], r, wall_force, asked);
+                block_work(s, &b, sums, r, wall_force, asked);
         }
     }
     if (b.n > 0)
-        block_work(s, &b, first, &w->own[first], r, wall_force, asked);
+        block_work(s, &b, sums, r, wall_force, asked);
     r->skeleton_sum += r->skeleton;
     for (int k = 0; walls && k < s->walls.n; k++)
         w->wall_sum[(size_t)run * s->walls.n + k] += wall_force[k];

@@ -4,14 +4,14 @@
 
 #include <stdbool.h>
 #include "contact_block.h"
+#include "neighbours.h"
 
 struct sim;
 struct scene;
 
 struct contact_work {
-    struct record *record; /* per place of `to` in the pair list */
+    struct sums *sums;     /* per entry of a run: its grains, then its halo */
     size_t capacity;       /* of it */
-    struct sums *own;      /* per grain, of the contacts that it owns */
     struct report *report; /* per run */
     double4 *wall_force;   /* per run and wall: N, on the wall, at the step at hand */
     double4 *wall_sum;     /* the same, over the steps since it was last collected */
@@ -27,25 +27,27 @@ struct contact_work {
 void contact_create(struct sim *s, struct scene *scene);
 void contact_free(struct sim *s);
 
-int contact_rows(void);     /* reals of memory per contact, all laws together */
+int contact_rows(void);     /* reals of memory per contact, all laws together, in fours */
 double contact_reach(void); /* m, gap up to which some law acts */
 
 /* Room for the lists at hand: after every rebuild of them. */
 void contact_prepare(struct sim *s);
 
-/* Forces of every contact at the bodies' places: sums per owner and a record per slot, which
- * the motion gathers. `choose`: active slots are chosen anew. `asked`: the last step before the
+/* Forces of every contact at the bodies' places: sums per grain of each run and its halo,
+ * which the motion gathers. `choose`: active slots are chosen anew. `asked`: the last step before the
  * ledger, which wants energies, counts and the largest overlap. Called by every thread of a
  * team (or by one alone); ends with all threads together. */
 void contact_loop(struct sim *s, bool choose, bool asked);
 
-/* Force and torque on grain i by its contacts, in the order of the lists. */
-static inline struct sums contact_sums(const struct contact_work *w, const int *begin_in, int i)
+/* Force and torque on grain i by its contacts: those of its own run, then of the others in their
+ * order. */
+static inline struct sums contact_sums(const struct contact_work *w,
+                                       const struct neighbours *nb, int i)
 {
-    struct sums sum = w->own[i];
-    for (int k = begin_in[i]; k < begin_in[i + 1]; k++) {
-        sum.force -= __builtin_convertvector(w->record[k].force, double4);
-        sum.torque += __builtin_convertvector(w->record[k].torque, double4);
+    struct sums sum = w->sums[neighbours_entry(nb, i / RUN, i % RUN)];
+    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++) {
+        sum.force += w->sums[nb->in[k]].force;
+        sum.torque += w->sums[nb->in[k]].torque;
     }
     return sum;
 }

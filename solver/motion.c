@@ -32,7 +32,7 @@ static void die_lost(const struct sim *s)
 static struct sums forces(const struct sim *s, int i)
 {
     const struct grains *const g = &s->grains;
-    struct sums sum = contact_sums(s->contacts, s->neighbours.begin_in, i);
+    struct sums sum = contact_sums(s->contacts, &s->neighbours, i);
     sum.force += (double4){g->load[i].x, g->load[i].y, g->load[i].z, 0.0};
     sum.torque += (double4){g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
     return sum;

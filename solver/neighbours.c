@@ -69,6 +69,8 @@ void neighbours_free(struct sim *s)
     for (int k = 0; k < 2; k++)
         slots_free(&nb->spare[k]);
     xfree(nb->to);
+    xfree(nb->halo_begin);
+    xfree(nb->in);
     xfree(nb->begin_in);
     xfree(s->bodies);
 }
@@ -225,37 +227,83 @@ static void sort_slots(int *slot, int n)
     }
 }
 
-/* Gives each pair slot its place among those of its other grain, in the order of the slots. */
-static void list_incoming(struct neighbours *nb, int n)
+/* Counts the grains of other runs that a run's slots name, in the order of the slots; writes the
+ * `to` of the slots and, from `halo` on, the grains. The marks of the thread tell what it has
+ * seen in this run. */
+static int count_halo(struct neighbours *nb, int run, int n, int (*mark)[2], int *halo)
 {
     const struct slots *const l = &nb->pairs;
-    int *const slots = xalloc(l->n + 1, sizeof *slots);
+    const int first = run * RUN, last = first + RUN < n ? first + RUN : n;
+    int count = 0;
+    for (int t = l->begin[first]; t < l->begin[last]; t++) {
+        const int j = l->other[t];
+        if (j >= first && j < last) {
+            nb->to[t] = j - first;
+            continue;
+        }
+        if (mark[j][0] != run + 1) {
+            mark[j][0] = run + 1;
+            mark[j][1] = count;
+            halo[count++] = j;
+        }
+        nb->to[t] = RUN + mark[j][1];
+    }
+    return count;
+}
+
+/* For each grain its entries in halos, in the order of the runs. */
+static void list_incoming(struct neighbours *nb, const int *halo, int n)
+{
+    const int entries = nb->halo_begin[nb->runs];
     int *const next = xalloc((size_t)n + 1, sizeof *next);
-    xfree(nb->to);
-    nb->to = xalloc(l->n + 1, sizeof *nb->to);
+    xfree(nb->in);
+    nb->in = xalloc((size_t)entries + 1, sizeof *nb->in);
     memset(nb->begin_in, 0, ((size_t)n + 1) * sizeof *nb->begin_in);
 #pragma omp parallel for schedule(static)
-    for (size_t t = 0; t < l->n; t++)
+    for (int e = 0; e < entries; e++)
 #pragma omp atomic
-        nb->begin_in[l->other[t] + 1]++;
+        nb->begin_in[halo[e] + 1]++;
     for (int i = 0; i < n; i++)
         nb->begin_in[i + 1] += nb->begin_in[i];
     memcpy(next, nb->begin_in, (size_t)n * sizeof *next);
 #pragma omp parallel for schedule(static)
-    for (size_t t = 0; t < l->n; t++) {
-        int place;
+    for (int run = 0; run < nb->runs; run++)
+        for (int e = nb->halo_begin[run]; e < nb->halo_begin[run + 1]; e++) {
+            int place;
 #pragma omp atomic capture
-        place = next[l->other[t]]++;
-        slots[place] = (int)t;
-    }
+            place = next[halo[e]]++;
+            nb->in[place] = (int)neighbours_entry(nb, run, RUN + e - nb->halo_begin[run]);
+        }
 #pragma omp parallel for schedule(dynamic, 1024)
-    for (int i = 0; i < n; i++) {
-        sort_slots(slots + nb->begin_in[i], nb->begin_in[i + 1] - nb->begin_in[i]);
-        for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++)
-            nb->to[slots[k]] = k;
-    }
-    xfree(slots);
+    for (int i = 0; i < n; i++)
+        sort_slots(nb->in + nb->begin_in[i], nb->begin_in[i + 1] - nb->begin_in[i]);
     xfree(next);
+}
+
+static void make_halos(struct neighbours *nb, int n)
+{
+    const struct slots *const l = &nb->pairs;
+    int *const halo = xalloc(l->n + 1, sizeof *halo); /* of a run from its first slot on */
+    xfree(nb->to);
+    xfree(nb->halo_begin);
+    nb->to = xalloc(l->n + 1, sizeof *nb->to);
+    nb->halo_begin = xalloc((size_t)nb->runs + 1, sizeof *nb->halo_begin);
+#pragma omp parallel
+    {
+        int(*const mark)[2] = xalloc((size_t)n + 1, sizeof *mark);
+#pragma omp for schedule(static)
+        for (int run = 0; run < nb->runs; run++)
+            nb->halo_begin[run + 1] = count_halo(nb, run, n, mark, halo + l->begin[run * RUN]);
+        xfree(mark);
+    }
+    for (int run = 0; run < nb->runs; run++) {
+        const int count = nb->halo_begin[run + 1];
+        nb->halo_begin[run + 1] = nb->halo_begin[run] + count;
+        memmove(halo + nb->halo_begin[run], halo + l->begin[run * RUN],
+                (size_t)count * sizeof *halo);
+    }
+    list_incoming(nb, halo, n);
+    xfree(halo);
 }
 
 void neighbours_speed(struct sim *s, int step, double square)
@@ -314,7 +362,7 @@ void neighbours_rebuild(struct sim *s)
     make_slots(s, &c, order, true);
     make_slots(s, &c, order, false);
     clock = timer_add(&s->timers, TIME_SEARCH, clock);
-    list_incoming(nb, s->grains.n);
+    make_halos(nb, s->grains.n);
     nb->listed = s->grains.n;
     nb->moved = 0.0;
     nb->moved_inner = (double)INFINITY;

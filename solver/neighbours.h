@@ -38,12 +38,15 @@ struct neighbours {
     int runs;     /* of the grains at hand */
     struct slots pairs, walls;
     struct slots spare[2]; /* the lists before, room for the next */
-    int *to;               /* per pair slot: its place among the slots of the other grain */
-    int *begin_in;         /* n + 1: places of a grain as the other one */
-    int listed;            /* grains in the lists; newcomers stand behind them */
-    double moved;          /* m, that a grain may have moved since the list was made */
-    double moved_inner;    /* m, since the active slots were chosen */
-    double fastest[2]; /* m2/s2, squares of largest speeds, of the step at hand and the next */
+    int *to;         /* per pair slot: the other grain as its run counts it: own ones from 0,
+                           then its halo from RUN on */
+    int *halo_begin; /* runs + 1: a run's halo are the grains of other runs in its slots */
+    int *begin_in,
+        *in;      /* n + 1, halos: entries (neighbours_entry) of a grain in others' halos */
+    int listed;   /* grains in the lists; newcomers stand behind them */
+    double moved; /* m, that a grain may have moved since the list was made */
+    double moved_inner; /* m, since the active slots were chosen */
+    double fastest[2];  /* m2/s2, squares of largest speeds, of the step at hand and the next */
     long builds, choices; /* lists made, active slots chosen */
     long touching;        /* contacts, when last counted */
 };
@@ -66,6 +69,12 @@ struct ageing {
 
 /* `new`: the lists were made after the last drift. */
 struct ageing neighbours_ageing(const struct sim *s, bool new);
+/* Index of entry `local` of a run, when those of all runs stand one behind the other. */
+static inline size_t neighbours_entry(const struct neighbours *nb, int run, int local)
+{
+    return (size_t)run * RUN + (size_t)(nb->halo_begin[run] + local);
+}
+
 /* After the drift of a step of this parity: adds its largest way; false if the list is stale. */
 bool neighbours_fresh(struct sim *s, struct ageing *age, int step);
 void neighbours_aged(struct sim *s, const struct ageing *age); /* keeps it, by one thread */

@@ -69,14 +69,30 @@ static int index_along(const struct search_class *l, const struct domain *d, dou
     return (int)at;
 }
 
+/* Cells are counted block by block, so that grains near in memory are near in space. */
+enum { SIDE = 4 };
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static int cell_index(const struct search_class *l, int i, int j, int k)
+{
+    const int bi = i / SIDE * SIDE, bj = j / SIDE * SIDE, bk = k / SIDE * SIDE;
+    const int wide = least(SIDE, l->n[0] - bi), deep = least(SIDE, l->n[1] - bj);
+    const int high = least(SIDE, l->n[2] - bk);
+    return l->first + l->n[0] * l->n[1] * bk + l->n[0] * bj * high + bi * deep * high +
+           (i - bi) + wide * ((j - bj) + deep * (k - bk));
+}
+
 static int home_of(const struct search *c, const struct sim *s, int i)
 {
     const vec3 x = s->grains.pos[i];
     const struct search_class *const l =
         &c->class[c->class_of[halvings(c, s->grains.radius[i])]];
-    return l->first + index_along(l, &s->domain, x.x, 0) +
-           l->n[0] * (index_along(l, &s->domain, x.y, 1) +
-                      l->n[1] * index_along(l, &s->domain, x.z, 2));
+    return cell_index(l, index_along(l, &s->domain, x.x, 0), index_along(l, &s->domain, x.y, 1),
+                      index_along(l, &s->domain, x.z, 2));
 }
 
 static void sort_ints(int *x, int n)
@@ -207,8 +223,7 @@ int search_pairs(const struct search *c, const struct sim *s, double margin, int
         for (int k = 0; k < count[2]; k++)
             for (int j = 0; j < count[1]; j++)
                 for (int h = 0; h < count[0]; h++) {
-                    const int home =
-                        l->first + near[0][h] + l->n[0] * (near[1][j] + l->n[1] * near[2][k]);
+                    const int home = cell_index(l, near[0][h], near[1][j], near[2][k]);
                     const int from = c->begin[home], to = c->begin[home + 1];
                     if (n + to - from + 1 > *room) {
                         const int more = 2 * (n + to - from) + 1024;
