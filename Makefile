@@ -32,7 +32,7 @@ WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdo
         -Wundef -Wvla -Wno-psabi -Wno-unknown-pragmas -Wno-missing-field-initializers
 BASE := -std=c11 -D_POSIX_C_SOURCE=200809L -fopenmp -ffp-contract=off -fno-math-errno \
         -fno-trapping-math -fPIC
-FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -g
+FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -mtune=icelake-server -g
 FLAGS_debug   := -O1 -g3 -fno-omit-frame-pointer -fsanitize=address,undefined \
                  -fno-sanitize-recover=undefined
 CFLAGS := $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE))

@@ -28,7 +28,7 @@ const struct about contact_about = {
 
 const struct key contact_keys[] = {ELASTIC_KEYS, DAMPING_KEYS, FRICTION_KEYS, {0}};
 
-const int contact_history = 4; /* tangential force of the spring, N; depth, m */
+const int contact_history = 4; /* tangential force of the spring, N; radius of the contact, m */
 
 static struct elastic elastic;
 
@@ -67,27 +67,27 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
     _Alignas(64) real k[PARAMETERS][TOUCH];
     pairs_spread(t, &table[0][0], PARAMETERS, k);
     real *const restrict hx = history[0], *const restrict hy = history[1];
-    real *const restrict hz = history[2], *const restrict depth_old = history[3];
+    real *const restrict hz = history[2], *const restrict a_old = history[3];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const struct arrow n = touch_normal(t, c);
         const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const real a = sqrt(t->r_eff[c] * depth), damping = t->start[c] * sqrt(a * t->m_eff[c]);
+        const real a = square_root(t->r_eff[c] * depth),
+                   damping = t->start[c] * square_root(a * t->m_eff[c]);
         const real kn = k[HERTZ][c] * a, kt = k[SHEAR][c] * a;
         const real normal = kn * depth - k[CN][c] * damping * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
-        const bool unloads = depth < depth_old[c]; /* k_t falls with sqrt(depth) */
-        const struct arrow held =
-            spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, unloads ? depth : 1.0,
-                        unloads ? depth_old[c] : 1.0);
+        const bool unloads = a < a_old[c]; /* k_t falls with it */
+        const struct arrow held = spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n,
+                                              unloads ? a : 1.0, unloads ? a_old[c] : 1.0);
         const struct spring f = spring_cut(arrow_axpy(held, -kt * dt, v),
                                            arrow_scale(-k[CT][c] * damping, v), k[MU][c] * fn);
         hx[c] = f.held.x;
         hy[c] = f.held.y;
         hz[c] = f.held.z;
-        depth_old[c] = depth;
+        a_old[c] = a;
         t->fx[c] = fn * n.x + f.total.x;
         t->fy[c] = fn * n.y + f.total.y;
         t->fz[c] = fn * n.z + f.total.z;

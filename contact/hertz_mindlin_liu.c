@@ -86,9 +86,8 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
             elastic_n - k[CN][c] * t->start[c] * sqrt(a * t->m_eff[c]) * t->vn[c];
         const real fn = normal > 0.0 ? normal : 0.0;
         const bool loads = depth > depth_old[c];
-        const struct arrow turned =
-            spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n, loads ? depth_old[c] : 1.0,
-                        loads ? depth : 1.0);
+        const struct arrow turned = spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n,
+                                                loads ? sqrt(depth_old[c] / depth) : 1.0, 1.0);
         const struct arrow to = arrow_axpy(turned, dt, v);
         const real size = sqrt(arrow_dot(to, to)), most = k[S_MAX][c] * depth;
         const real inverse = size > 0.0 ? 1.0 / size : 0.0;

@@ -27,9 +27,8 @@ void shape_overlaps(const struct grains *g, const struct candidates *c, struct t
     (void)g;
 #pragma omp simd
     for (int k = 0; k < c->n; k++) {
-        const real distance =
-            sqrt(c->dx[k] * c->dx[k] + c->dy[k] * c->dy[k] + c->dz[k] * c->dz[k]);
-        const real inverse = distance > 0.0 ? 1.0 / distance : 0.0;
+        const real square = c->dx[k] * c->dx[k] + c->dy[k] * c->dy[k] + c->dz[k] * c->dz[k];
+        const real inverse = inverse_root(square), distance = square * inverse;
         const real half = 0.5 * (t->r_i[k] + t->r_j[k] - distance);
         const real arm_i = half - t->r_i[k];
         const real arm_j = t->r_j[k] > 0.0 ? t->r_j[k] - half : 0.0;

@@ -20,27 +20,34 @@ void frame_of(struct frame *f, const struct domain *d)
     }
 }
 
-void bodies_fill(struct sim *s)
+static void fill(const struct sim *s, struct body *b, int i)
 {
     const struct grains *const g = &s->grains;
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < g->n; i++) {
-        const vec3 v = g->vel[i], w = g->spin[i];
-        s->bodies[i] =
-            (struct body){.place = frame_place(&s->frame, g->pos[i]),
-                          .vel = {(real)v.x, (real)v.y, (real)v.z, (real)g->inv_mass[i]},
-                          .full = {(real)v.x, (real)v.y, (real)v.z, (real)grain_material(g, i)},
-                          .spin = {(real)w.x, (real)w.y, (real)w.z, (real)g->radius[i]}};
-    }
+    const vec3 x = g->pos[i], v = g->vel[i], w = g->spin[i];
+    const struct motion_state m = {
+        .pos = {x.x, x.y, x.z, 0.0},
+        .vel_spin = {v.x, v.y, v.z, g->inv_mass[i], w.x, w.y, w.z, g->radius[i]}};
+    body_write(b, &s->frame, &m, (double4){v.x, v.y, v.z, (double)grain_material(g, i)});
 }
 
-void bodies_sort(struct sim *s, const int *order)
+void bodies_fill(struct sim *s)
 {
-    struct body *const sorted = xalloc((size_t)s->grains.capacity, sizeof *sorted);
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < s->grains.n; i++)
+        fill(s, &s->bodies[i], i);
+}
+
+void bodies_sort(struct sim *s, const int *order, int listed)
+{
+    struct body *const sorted = xalloc((size_t)s->grains.capacity + 1, sizeof *sorted);
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < s->grains.n; i++) {
-        sorted[i] = s->bodies[order[i]];
-        sorted[i].place = frame_place(&s->frame, s->grains.pos[i]);
+        if (order[i] >= listed && s->grains.inv_mass[i] == 0.0) {
+            fill(s, &sorted[i], i);
+        } else {
+            sorted[i] = s->bodies[order[i]];
+            sorted[i].place = frame_place(&s->frame, s->grains.pos[i]);
+        }
     }
     xfree(s->bodies);
     s->bodies = sorted;

@@ -9,64 +9,136 @@
 #include "../contact/rolling/rolling.h"
 #include "contact_loop.h"
 #include "sim.h"
+#include "turn.h"
 
-void block_open(struct block *b)
+/* Takes in slots; lanes without a contact of their own repeat the last one: numbers that laws
+ * can take. */
+static void take(struct block *b, const struct slots *l, bool walls, const int *slot, int count)
 {
-    b->n = 0;
-    b->fresh = b->walls = false;
-    memset(b->t.pair, 0, sizeof b->t.pair); /* left so where there is one material */
-}
-
-/* Lanes without a contact of their own repeat the last one: numbers that laws can take. */
-static int pad(struct block *b)
-{
-    const int last = b->n - 1;
-    int n = b->n;
-    for (; n % TOUCH_LANES != 0; n++) {
-        b->c.i[n] = b->c.i[last];
-        b->c.j[n] = b->c.j[last];
-        b->c.wall[n] = b->c.wall[last];
-        b->memory[n] = b->memory[last];
-        b->d[n] = b->d[last];
-        b->v[n] = b->v[last];
-        b->full[n] = b->full[last];
-        b->spin_i[n] = b->spin_i[last];
-        b->spin_j[n] = b->spin_j[last];
-        b->t.pair[n] = b->t.pair[last];
+    const int *const restrict owner = l->owner, *const restrict other =
+                                                    walls ? owner : l->other;
+    int n = count;
+    b->n = count;
+    b->walls = walls;
+    memcpy(b->slot, slot, (size_t)count * sizeof *slot);
+    for (; n % TOUCH_LANES != 0; n++)
+        b->slot[n] = slot[count - 1];
+    b->c.n = b->t.n = n;
+#pragma omp simd
+    for (int c = 0; c < n; c++) {
+        const int i = owner[b->slot[c]], j = other[b->slot[c]];
+        b->c.i[c] = i;
+        b->c.j[c] = j;
     }
-    return n;
 }
 
-/* Distances by the nearest image, radii, reduced mass, velocities of the centres. */
-static void unpack(const struct frame *f, struct block *b)
+/* The numbers of eight bodies from one of their halves on: number k of body c in out[k][c]. */
+static inline __attribute__((always_inline)) void turn_in(const struct sim *s, const int *grain,
+                                                          real8 out[8])
+{
+    for (int k = 0; k < 8; k++)
+        out[k] = take8((const real *)&s->bodies[grain[k]].vel);
+    turn8(out);
+}
+
+/* Distances, not yet by the nearest image, and motion of the centres, i less j. */
+static void gather(const struct sim *s, struct block *b)
 {
     struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c += 8) {
+        const int *const i = &b->c.i[c], *const j = &b->c.j[c];
+        real8 a[8], d[8];
+        for (int k = 0; k < 8; k++)
+            a[k] = body_apart(&s->bodies[i[k]], &s->bodies[j[k]]);
+        turn8(a);
+        put8(&b->c.dx[c], a[0]);
+        put8(&b->c.dy[c], a[1]);
+        put8(&b->c.dz[c], a[2]);
+        put8(&b->vx[c], a[4]);
+        put8(&b->vy[c], a[5]);
+        put8(&b->vz[c], a[6]);
+        turn_in(s, i, a);
+        turn_in(s, j, d);
+        put8(&t->vx[c], a[0] - d[0]);
+        put8(&t->vy[c], a[1] - d[1]);
+        put8(&t->vz[c], a[2] - d[2]);
+        put8(&b->inv_m[c], a[3] + d[3]);
+        put8(&b->px[c], a[4]);
+        put8(&b->py[c], a[5]);
+        put8(&b->pz[c], a[6]);
+        put8(&t->r_i[c], a[7]);
+        put8(&b->qx[c], d[4]);
+        put8(&b->qy[c], d[5]);
+        put8(&b->qz[c], d[6]);
+        put8(&t->r_j[c], d[7]);
+    }
+}
+
+static void pair_up(const struct sim *s, struct block *b)
+{
+    const struct frame *const f = &s->frame;
     const real sx = f->scale[0], sy = f->scale[1], sz = f->scale[2];
     const real lx = f->image[0], ly = f->image[1], lz = f->image[2];
     const real ix = f->inv_image[0], iy = f->inv_image[1], iz = f->inv_image[2];
-    const coordinate *const restrict d = (const coordinate *)b->d;
-    const real *const restrict v = (const real *)b->v, *const restrict p =
-                                                           (const real *)b->spin_i;
-    const real *const restrict q = (const real *)b->spin_j;
+    struct touch *const t = &b->t;
+    gather(s, b);
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const real x = (real)d[4 * c] * sx, y = (real)d[4 * c + 1] * sy;
-        const real z = (real)d[4 * c + 2] * sz;
-        b->c.dx[c] = x - lx * rint(x * ix);
-        b->c.dy[c] = y - ly * rint(y * iy);
-        b->c.dz[c] = z - lz * rint(z * iz);
+        const real x = b->c.dx[c] * sx, y = b->c.dy[c] * sy, z = b->c.dz[c] * sz;
+        b->c.dx[c] = fma(-lx, rint(x * ix), x);
+        b->c.dy[c] = fma(-ly, rint(y * iy), y);
+        b->c.dz[c] = fma(-lz, rint(z * iz), z);
     }
+    if (s->grains.n_materials == 1)
+        memset(t->pair, 0, sizeof t->pair);
+    else
+        for (int c = 0; c < t->n; c++)
+            t->pair[c] = (int)s->bodies[b->c.i[c]].full[3] * s->grains.n_materials +
+                         (int)s->bodies[b->c.j[c]].full[3];
+    for (int c = 0; c < t->n; c++)
+        b->c.wall[c] = NULL;
+}
+
+/* The same against walls, one by one. */
+static void meet_walls(const struct sim *s, struct block *b)
+{
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++) {
+        const int i = b->c.i[c], element = s->neighbours.walls.other[b->slot[c]];
+        const struct body *const body = &s->bodies[i];
+        const struct wall *const wall = &s->walls.wall[element];
+        const vec3 d = wall_distance(s, element, s->grains.pos[i]);
+        const vec3 v = wall->velocity;
+        b->c.wall[c] = wall;
+        b->c.dx[c] = (real)d.x;
+        b->c.dy[c] = (real)d.y;
+        b->c.dz[c] = (real)d.z;
+        t->r_i[c] = body->spin[3];
+        t->r_j[c] = 0.0;
+        b->inv_m[c] = body->vel[3];
+        t->vx[c] = body->vel[0] - (real)v.x;
+        t->vy[c] = body->vel[1] - (real)v.y;
+        t->vz[c] = body->vel[2] - (real)v.z;
+        b->vx[c] = body->full[0] - (real)v.x;
+        b->vy[c] = body->full[1] - (real)v.y;
+        b->vz[c] = body->full[2] - (real)v.z;
+        b->px[c] = body->spin[0];
+        b->py[c] = body->spin[1];
+        b->pz[c] = body->spin[2];
+        b->qx[c] = b->qy[c] = b->qz[c] = 0.0;
+        t->pair[c] = (int)body->full[3] * s->grains.n_materials + wall->material;
+    }
+}
+
+static void reduce(struct block *b)
+{
+    struct touch *const t = &b->t;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const real ri = p[4 * c + 3], rj = q[4 * c + 3], m = v[4 * c + 3], sum = ri + rj;
+        const real ri = t->r_i[c], rj = t->r_j[c], m = b->inv_m[c], sum = ri + rj;
         const real inverse = 1.0 / (sum * m);
-        t->r_i[c] = ri;
-        t->r_j[c] = rj;
         t->m_eff[c] = sum * inverse;
         t->r_eff[c] = rj > 0.0 ? ri * rj * m * inverse : ri;
-        t->vx[c] = v[4 * c];
-        t->vy[c] = v[4 * c + 1];
-        t->vz[c] = v[4 * c + 2];
     }
 }
 
@@ -75,20 +147,20 @@ static void velocities(struct block *b)
 {
     struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
-    const real *const restrict p = (const real *)b->spin_i, *const restrict q =
-                                                                (const real *)b->spin_j;
-    const real *const restrict u = (const real *)b->full;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const real px = p[4 * c], py = p[4 * c + 1], pz = p[4 * c + 2];
-        const real qx = q[4 * c], qy = q[4 * c + 1], qz = q[4 * c + 2];
-        t->vx[c] += py * l->iz[c] - pz * l->iy[c] - (qy * l->jz[c] - qz * l->jy[c]);
-        t->vy[c] += pz * l->ix[c] - px * l->iz[c] - (qz * l->jx[c] - qx * l->jz[c]);
-        t->vz[c] += px * l->iy[c] - py * l->ix[c] - (qx * l->jy[c] - qy * l->jx[c]);
+        const real px = b->px[c], py = b->py[c], pz = b->pz[c];
+        const real qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
+        t->vx[c] = fma(py, l->iz[c],
+                       fma(-pz, l->iy[c], fma(-qy, l->jz[c], fma(qz, l->jy[c], t->vx[c]))));
+        t->vy[c] = fma(pz, l->ix[c],
+                       fma(-px, l->iz[c], fma(-qz, l->jx[c], fma(qx, l->jz[c], t->vy[c]))));
+        t->vz[c] = fma(px, l->iy[c],
+                       fma(-py, l->ix[c], fma(-qx, l->jy[c], fma(qy, l->jx[c], t->vz[c]))));
         t->wx[c] = px - qx;
         t->wy[c] = py - qy;
         t->wz[c] = pz - qz;
-        t->vn[c] = t->nx[c] * u[4 * c] + t->ny[c] * u[4 * c + 1] + t->nz[c] * u[4 * c + 2];
+        t->vn[c] = fma(t->nx[c], b->vx[c], fma(t->ny[c], b->vy[c], t->nz[c] * b->vz[c]));
     }
 }
 
@@ -102,23 +174,27 @@ static real first_part(const struct touch *t, int c)
     return fmin(fmax(since, 0.0), 1.0) + 0.5;
 }
 
-static void starts(struct block *b)
+static void starts(struct block *b, const unsigned char *live)
 {
-    for (int c = 0; c < b->t.n; c++)
-        b->t.start[c] = 1.0;
-    for (int c = 0; c < b->n && b->fresh; c++)
-        if (!*b->live[c])
-            b->t.start[c] = first_part(&b->t, c);
+    struct touch *const t = &b->t;
+    int new = 0;
+    for (int c = 0; c < t->n; c++)
+        t->start[c] = 1.0;
+    for (int c = 0; c < b->n; c++)
+        new |= (live[b->slot[c]] == 0) & (t->depth[c] > 0.0);
+    for (int c = 0; c < b->n && new; c++)
+        if (!live[b->slot[c]])
+            t->start[c] = first_part(t, c);
 }
 
 /* The memory of a slot is a number of fours: taken as such, then turned. */
-static void load_memory(struct block *b, int rows)
+static void load_memory(struct block *b, const real *memory, int rows)
 {
-    const real *const restrict row = (const real *)b->row[0];
+    const real *const restrict row = (const real *)b->row;
     for (int k = 0; k < rows; k += 4) {
         real(*const h)[TOUCH] = &b->history[k];
         for (int c = 0; c < b->t.n; c++)
-            memcpy(&b->row[0][c], b->memory[c] + k, sizeof(real4));
+            memcpy(&b->row[c], &memory[(size_t)b->slot[c] * rows + k], sizeof(real4));
 #pragma omp simd
         for (int c = 0; c < b->t.n; c++) {
             h[0][c] = row[4 * c];
@@ -129,32 +205,15 @@ static void load_memory(struct block *b, int rows)
     }
 }
 
-static void store_memory(struct block *b, int rows)
-{
-    real *const restrict row = (real *)b->row[0];
-    for (int k = 0; k < rows; k += 4) {
-        real(*const h)[TOUCH] = &b->history[k];
-#pragma omp simd
-        for (int c = 0; c < b->t.n; c++) {
-            row[4 * c] = h[0][c];
-            row[4 * c + 1] = h[1][c];
-            row[4 * c + 2] = h[2][c];
-            row[4 * c + 3] = h[3][c];
-        }
-        for (int c = 0; c < b->n; c++)
-            memcpy(b->memory[c] + k, &b->row[0][c], sizeof(real4));
-    }
-}
-
 /* What laws ask for only some of the time. */
 static void extras(const struct grains *g, struct block *b, unsigned needs)
 {
     struct touch *const t = &b->t;
     if (needs & TOUCH_SPIN)
         for (int c = 0; c < t->n; c++) {
-            t->sx[c] = b->spin_i[c][0];
-            t->sy[c] = b->spin_i[c][1];
-            t->sz[c] = b->spin_i[c][2];
+            t->sx[c] = b->px[c];
+            t->sy[c] = b->py[c];
+            t->sz[c] = b->pz[c];
         }
     if (needs & TOUCH_INERTIA)
         for (int c = 0; c < t->n; c++) {
@@ -208,36 +267,55 @@ static double energy(struct block *b, double reach)
     return sum;
 }
 
-/* Forces and torques into rows, the sign of those on j turned. */
+/* Forces and torques into rows: force and torque on i; torque on j. */
 static inline __attribute__((always_inline)) void pack(struct block *b, bool couples)
 {
     const struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
-    real *const restrict f = (real *)b->row[0], *const restrict on_i = (real *)b->row[1];
-    real *const restrict on_j = (real *)b->row[2];
-#pragma omp simd
-    for (int c = 0; c < t->n; c++) {
-        const real fx = t->fx[c], fy = t->fy[c], fz = t->fz[c];
-        const real mx = couples ? t->mx[c] : 0.0, my = couples ? t->my[c] : 0.0;
-        const real mz = couples ? t->mz[c] : 0.0;
-        f[4 * c] = fx;
-        f[4 * c + 1] = fy;
-        f[4 * c + 2] = fz;
-        f[4 * c + 3] = 0.0;
-        on_i[4 * c] = l->iy[c] * fz - l->iz[c] * fy + mx;
-        on_i[4 * c + 1] = l->iz[c] * fx - l->ix[c] * fz + my;
-        on_i[4 * c + 2] = l->ix[c] * fy - l->iy[c] * fx + mz;
-        on_i[4 * c + 3] = 0.0;
-        on_j[4 * c] = -(l->jy[c] * fz - l->jz[c] * fy + mx);
-        on_j[4 * c + 1] = -(l->jz[c] * fx - l->jx[c] * fz + my);
-        on_j[4 * c + 2] = -(l->jx[c] * fy - l->jy[c] * fx + mz);
-        on_j[4 * c + 3] = 0.0;
+    const real8 zero = {0.0};
+    for (int c = 0; c < t->n; c += 8) {
+        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
+        const real8 mx = couples ? take8(&t->mx[c]) : zero,
+                    my = couples ? take8(&t->my[c]) : zero;
+        const real8 mz = couples ? take8(&t->mz[c]) : zero;
+        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
+        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
+        real8 i[8] = {fx,
+                      fy,
+                      fz,
+                      zero,
+                      iy * fz - iz * fy + mx,
+                      iz * fx - ix * fz + my,
+                      ix * fy - iy * fx + mz,
+                      zero};
+        real8 j[8] = {-fx,
+                      -fy,
+                      -fz,
+                      zero,
+                      jz * fy - jy * fz - mx,
+                      jx * fz - jz * fx - my,
+                      jy * fx - jx * fy - mz,
+                      zero};
+        turn8(i);
+        turn8(j);
+        for (int k = 0; k < 8; k++) {
+            put8(b->on[0][c + k], i[k]);
+            put8(b->on[1][c + k], j[k]);
+        }
     }
 }
 
-static inline double4 wide(real4 a)
+static inline double8 wide(const real row[8])
 {
-    return __builtin_convertvector(a, double4);
+    real8 a;
+    memcpy(&a, row, sizeof a);
+    return __builtin_convertvector(a, double8);
+}
+
+static inline double4 force_of(const struct block *b, int c)
+{
+    const real *const f = b->on[0][c];
+    return (double4){(double)f[0], (double)f[1], (double)f[2], 0.0};
 }
 
 static void guard(const struct block *b, real most, struct report *r)
@@ -251,51 +329,63 @@ static void guard(const struct block *b, real most, struct report *r)
     r->too_deep = r->too_deep || deep;
 }
 
-/* What is remembered, and whether there is a contact at all. */
-static void keep(const struct sim *s, struct block *b)
+/* Keeps what is to be remembered of each contact, nothing where there is none. */
+static void keep(const struct sim *s, struct block *b, struct slots *l)
 {
     const real reach = (real)s->neighbours.reach;
-    const size_t size = (size_t)s->neighbours.rows * sizeof(real);
-    store_memory(b, s->neighbours.rows);
-    for (int c = 0; c < b->n; c++) {
-        const bool touches = b->t.depth[c] > -reach;
-        *b->live[c] = touches;
-        if (!touches)
-            memset(b->memory[c], 0, size);
-    }
+    const int rows = s->neighbours.rows;
+    struct touch *const t = &b->t;
+    for (int c = 0; c < b->n; c++)
+        l->live[b->slot[c]] = t->depth[c] > -reach;
+    for (int k = 0; k < rows; k += 4)
+        for (int c = 0; c < t->n; c += 8) {
+            const real8 gap = -take8(&t->depth[c]);
+            const lane8 touches = gap < reach;
+            real8 h[4], pairs[4];
+            for (int m = 0; m < 4; m++)
+                h[m] = (real8)((lane8)take8(&b->history[k + m][c]) & touches);
+            turn4(h, pairs);
+            for (int m = 0; m < 4; m++) { /* rows m and m + 4 */
+                real two[8];
+                put8(two, pairs[m]);
+                if (c + m < b->n)
+                    memcpy(&l->memory[(size_t)b->slot[c + m] * rows + k], two, sizeof(real4));
+                if (c + m + 4 < b->n)
+                    memcpy(&l->memory[(size_t)b->slot[c + m + 4] * rows + k], two + 4,
+                           sizeof(real4));
+            }
+        }
 }
 
 /* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
  * an addition to what was just added to must wait for it. */
-static void add(struct block *b, struct sums *sums, double4 *wall_force)
+static void add(const struct block *b, const int *restrict to, const struct target *target)
 {
     enum { STRIDE = 8 };
+    struct sums *const own = target->sums - target->first, *const all = target->sums;
     for (int start = 0; start < STRIDE; start++)
         for (int c = start; c < b->n; c += STRIDE) {
-            const double4 force = wide(b->row[0][c]);
-            struct sums *const from = &sums[b->from[c]];
-            from->force += force;
-            from->torque += wide(b->row[1][c]);
-            if (b->walls && b->to[c] < 0) {
-                wall_force[-1 - b->to[c]] -= force;
-                continue;
-            }
-            struct sums *const to = &sums[b->to[c]];
-            to->force -= force;
-            to->torque += wide(b->row[2][c]);
+            own[b->c.i[c]].both += wide(b->on[0][c]);
+            all[to[b->slot[c]]].both += wide(b->on[1][c]);
         }
+}
+
+static void add_walls(const struct block *b, const struct slots *l, const struct target *target)
+{
+    for (int c = 0; c < b->n; c++) {
+        target->sums[b->c.i[c] - target->first].both += wide(b->on[0][c]);
+        target->wall[l->other[b->slot[c]]] -= force_of(b, c);
+    }
 }
 
 /* Forces on frozen grains by the others. */
 static void add_skeleton(const struct grains *g, const struct block *b, struct report *r)
 {
     for (int c = 0; c < b->n; c++) {
-        if (b->to[c] < 0)
-            continue;
         if (g->inv_mass[b->c.i[c]] == 0.0)
-            r->skeleton += wide(b->row[0][c]);
+            r->skeleton += force_of(b, c);
         else if (g->inv_mass[b->c.j[c]] == 0.0)
-            r->skeleton -= wide(b->row[0][c]);
+            r->skeleton -= force_of(b, c);
     }
 }
 
@@ -317,33 +407,46 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
     }
 }
 
-void block_work(struct sim *s, struct block *b, struct sums *sums, struct report *report,
-                double4 *wall_force, bool asked)
+static void work(struct sim *s, struct block *b, struct slots *l, const struct target *to)
 {
     const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
-    b->c.n = b->t.n = pad(b);
     b->t.dt = s->run.dt;
     b->t.time = s->t;
-    unpack(&s->frame, b);
+    if (b->walls)
+        meet_walls(s, b);
+    else
+        pair_up(s, b);
+    reduce(b);
     shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
     velocities(b);
-    starts(b);
-    load_memory(b, s->neighbours.rows);
+    starts(b, l->live);
+    load_memory(b, l->memory, s->neighbours.rows);
     extras(&s->grains, b, needs);
     if (bond_history > 0)
         memset(b->t.broke, 0, sizeof b->t.broke);
     apply_laws(b);
-    keep(s, b);
+    keep(s, b, l);
     if (needs & TOUCH_COUPLES)
         pack(b, true);
     else
         pack(b, false);
-    guard(b, (real)s->run.overlap_max, report);
-    if (asked)
-        report_all(s, b, report);
-    add(b, sums, wall_force);
-    if (s->grains.n_frozen > 0)
-        add_skeleton(&s->grains, b, report);
-    b->n = 0;
-    b->fresh = b->walls = false;
+    guard(b, (real)s->run.overlap_max, to->report);
+    if (to->asked)
+        report_all(s, b, to->report);
+    if (b->walls)
+        add_walls(b, l, to);
+    else
+        add(b, s->neighbours.to, to);
+    if (s->grains.n_frozen > 0 && !b->walls)
+        add_skeleton(&s->grains, b, to->report);
+}
+
+void block_work(struct sim *s, struct block *b, bool walls, const int *slot, int count,
+                const struct target *to)
+{
+    struct slots *const l = walls ? &s->neighbours.walls : &s->neighbours.pairs;
+    for (int from = 0; from < count; from += TOUCH) {
+        take(b, l, walls, slot + from, count - from < TOUCH ? count - from : TOUCH);
+        work(s, b, l, to);
+    }
 }

@@ -1,9 +1,9 @@
-/* contact_block.h - a block of contacts in the making: filled contact by contact from the bodies,
- * worked through shape and laws as a structure of arrays, stored contact by contact.
+/* contact_block.h - a block of contacts in the making: a list of slots, worked through shape and
+ * laws as a structure of arrays, one entry a contact.
  *
- * The rows of a block are copies of four numbers of a body (or their difference), one row a
- * contact; the laws want arrays, one entry a contact. Turning the one into the other is done by
- * plain loops over fixed strides, which the compiler does with shuffles. */
+ * What the laws want of the two bodies is gathered by plain loops over the contacts, which the
+ * compiler turns into gathers; what they give is turned into rows of four and added to the sums
+ * of the run contact by contact. */
 #ifndef CONTACT_BLOCK_H
 #define CONTACT_BLOCK_H
 
@@ -22,34 +22,38 @@ struct report {
     bool too_deep;        /* a contact is deeper than run.overlap_max */
 };
 
-struct sums {              /* of the contacts of a grain in one run */
-    double4 force, torque; /* N, N m */
+struct sums {     /* of the contacts of a grain in one run */
+    double8 both; /* force, N, and nothing; torque, N m, and nothing */
 };
 
 struct block {
-    int n;                              /* contacts so far, TOUCH at most */
-    struct candidates c;                /* the same, as shapes see them */
-    bool fresh, walls;                  /* some contact is new; some is with a wall */
-    int from[TOUCH];                    /* grain i in the sums of the run */
-    int to[TOUCH];                      /* grain j there; -1 - index of a wall */
-    unsigned char *live[TOUCH];         /* of the slot */
-    real *memory[TOUCH];                /* of the slot */
-    coordinate4 d[TOUCH];               /* place i - place j */
-    real4 v[TOUCH];                     /* vel i - vel j; sum of inverse masses */
-    real4 full[TOUCH];                  /* full i - full j */
-    real4 spin_i[TOUCH], spin_j[TOUCH]; /* with the radii */
+    int n;           /* contacts so far, TOUCH at most */
+    bool walls;      /* of a list of wall slots */
+    int slot[TOUCH]; /* of the list */
+    struct candidates c;
     struct touch t;
     struct levers l;
     real history[HISTORY_MAX][TOUCH];
-    real4 row[3][TOUCH]; /* force, torques on i and j, on their way out */
+    real inv_m[TOUCH];                    /* 1/kg, of both */
+    real vx[TOUCH], vy[TOUCH], vz[TOUCH]; /* m/s, full step, i less j */
+    real px[TOUCH], py[TOUCH], pz[TOUCH]; /* rad/s, spin of i */
+    real qx[TOUCH], qy[TOUCH], qz[TOUCH]; /* rad/s, spin of j */
+    real4 row[TOUCH];                     /* memory on its way in and out */
+    real on[2][TOUCH][8];                 /* force and torque on i, on j, on their way out */
 };
 
-void block_open(struct block *b);
+/* Where the forces of a run go. */
+struct target {
+    int first;         /* grain of the run */
+    struct sums *sums; /* of its grains and of its halo */
+    double4 *wall;     /* N, per wall */
+    struct report *report;
+    bool asked; /* energy, counts and overlaps are wanted */
+};
 
-/* Works the block: shape, laws, memory. Adds forces to the sums of the run, to the report and to
- * those on the walls (N, per wall), and empties the block. `asked`: energy and counts are
- * wanted. */
-void block_work(struct sim *s, struct block *b, struct sums *sums, struct report *report,
-                double4 *wall_force, bool asked);
+/* Works `count` slots of a list (those of pairs, or those of walls if `walls`) through shape and
+ * laws, in blocks. */
+void block_work(struct sim *s, struct block *b, bool walls, const int *slot, int count,
+                const struct target *to);
 
 #endif

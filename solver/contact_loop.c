@@ -183,100 +183,39 @@ static void choose_walls(struct sim *s, int run, int first, int last)
     l->n_active[run] = n;
 }
 
-static inline int enter(struct block *b, struct slots *l, int rows, int slot)
-{
-    const int c = b->n++;
-    b->fresh |= !l->live[slot];
-    b->live[c] = &l->live[slot];
-    b->memory[c] = &l->memory[(size_t)slot * rows];
-    return c;
-}
-
-static inline void block_pair(struct block *b, const struct sim *s, struct slots *l, int slot,
-                              int first)
-{
-    static const real4 but_mass = {-1.0, -1.0, -1.0, 1.0}; /* inverse masses add up */
-    const int c = enter(b, l, s->neighbours.rows, slot);
-    const int i = l->owner[slot], j = l->other[slot];
-    const struct body *const bi = &s->bodies[i], *const bj = &s->bodies[j];
-    b->c.i[c] = i;
-    b->c.j[c] = j;
-    b->c.wall[c] = NULL;
-    b->from[c] = i - first;
-    b->to[c] = s->neighbours.to[slot];
-    b->d[c] = bi->place - bj->place;
-    b->v[c] = bi->vel + but_mass * bj->vel;
-    b->full[c] = bi->full - bj->full;
-    b->spin_i[c] = bi->spin;
-    b->spin_j[c] = bj->spin;
-    if (s->grains.n_materials > 1)
-        b->t.pair[c] = (int)bi->full[3] * s->grains.n_materials + (int)bj->full[3];
-}
-
-static inline void block_wall(struct block *b, const struct sim *s, struct slots *l, int slot,
-                              int first)
-{
-    const int c = enter(b, l, s->neighbours.rows, slot);
-    const int i = l->owner[slot], element = l->other[slot];
-    const struct body *const bi = &s->bodies[i];
-    const struct wall *const wall = &s->walls.wall[element];
-    const vec3 d = wall_distance(s, element, s->grains.pos[i]);
-    const vec3 v = wall->velocity;
-    const real4 moving = {(real)v.x, (real)v.y, (real)v.z, 0.0};
-    b->c.i[c] = b->c.j[c] = i;
-    b->c.wall[c] = wall;
-    b->from[c] = i - first;
-    b->to[c] = -1 - element;
-    b->walls = true;
-    b->d[c] = frame_place(&s->frame, d) - frame_place(&s->frame, v3(0.0, 0.0, 0.0));
-    b->v[c] = bi->vel - moving;
-    b->full[c] = bi->full - moving;
-    b->spin_i[c] = bi->spin;
-    b->spin_j[c] = (real4){0.0, 0.0, 0.0, 0.0};
-    b->t.pair[c] = (int)bi->full[3] * s->grains.n_materials + wall->material;
-}
-
 static void work_run(struct sim *s, int run, bool choose, bool asked)
 {
     struct neighbours *const nb = &s->neighbours;
     struct contact_work *const w = s->contacts;
     struct report *const r = &w->report[run];
-    double4 *const wall_force = &w->wall_force[(size_t)run * s->walls.n];
     const int first = run * RUN;
     const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
     const bool walls = nb->walls.begin[last] > nb->walls.begin[first];
+    const int halo = nb->halo_begin[run + 1] - nb->halo_begin[run];
+    const struct target to = {.first = first,
+                              .sums = &w->sums[neighbours_entry(nb, run, 0)],
+                              .wall = &w->wall_force[(size_t)run * s->walls.n],
+                              .report = r,
+                              .asked = asked};
     struct block b;
-    block_open(&b);
     if (choose) {
         choose_pairs(s, run, first, last);
         choose_walls(s, run, first, last);
     }
-    const int halo = nb->halo_begin[run + 1] - nb->halo_begin[run];
-    struct sums *const sums = &w->sums[neighbours_entry(nb, run, 0)];
-    memset(sums, 0, (size_t)(RUN + halo) * sizeof *sums);
+    memset(to.sums, 0, (size_t)(RUN + halo) * sizeof *to.sums);
     if (walls || choose)
-        memset(wall_force, 0, (size_t)s->walls.n * sizeof *wall_force);
+        memset(to.wall, 0, (size_t)s->walls.n * sizeof *to.wall);
     r->touching = 0;
     r->energy = r->overlap = 0.0;
     r->too_deep = false;
     r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
-    for (int list = 0; list < 2; list++) {
-        struct slots *const l = list == 0 ? &nb->pairs : &nb->walls;
-        const int *const active = &l->active[l->begin[first]];
-        for (int k = 0; k < l->n_active[run]; k++) {
-            if (list == 0)
-                block_pair(&b, s, l, active[k], first);
-            else
-                block_wall(&b, s, l, active[k], first);
-            if (b.n == TOUCH)
-                block_work(s, &b, sums, r, wall_force, asked);
-        }
-    }
-    if (b.n > 0)
-        block_work(s, &b, sums, r, wall_force, asked);
+    block_work(s, &b, false, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run],
+               &to);
+    block_work(s, &b, true, &nb->walls.active[nb->walls.begin[first]], nb->walls.n_active[run],
+               &to);
     r->skeleton_sum += r->skeleton;
     for (int k = 0; walls && k < s->walls.n; k++)
-        w->wall_sum[(size_t)run * s->walls.n + k] += wall_force[k];
+        w->wall_sum[(size_t)run * s->walls.n + k] += to.wall[k];
     if (r->too_deep)
 #pragma omp atomic write
         w->too_deep = 1;

@@ -45,10 +45,8 @@ static inline struct sums contact_sums(const struct contact_work *w,
                                        const struct neighbours *nb, int i)
 {
     struct sums sum = w->sums[neighbours_entry(nb, i / RUN, i % RUN)];
-    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++) {
-        sum.force += w->sums[nb->in[k]].force;
-        sum.torque += w->sums[nb->in[k]].torque;
-    }
+    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++)
+        sum.both += w->sums[nb->in[k]].both;
     return sum;
 }
 

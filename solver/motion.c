@@ -28,48 +28,68 @@ static void die_lost(const struct sim *s)
     }
 }
 
-/* All forces on a grain but its weight. */
-static struct sums forces(const struct sim *s, int i)
+/* What the kicks of a step need besides the state of a grain. */
+struct kicks {
+    double half;     /* s */
+    double4 dt;      /* s, 0 behind the position */
+    double8 gravity; /* m/s2, 0 but for the velocity */
+    bool loaded;     /* the fluid acts */
+};
+
+static struct kicks kicks_of(const struct sim *s)
+{
+    const double dt = s->run.dt;
+    const vec3 g = s->domain.gravity;
+    return (struct kicks){.half = 0.5 * dt,
+                          .dt = {dt, dt, dt, 0.0},
+                          .gravity = {g.x, g.y, g.z, 0.0, 0.0, 0.0, 0.0, 0.0},
+                          .loaded = s->fluid.exists};
+}
+
+/* All forces on a grain but its weight; torque behind. */
+static inline double8 forces(const struct sim *s, const struct kicks *k, int i)
 {
     const struct grains *const g = &s->grains;
-    struct sums sum = contact_sums(s->contacts, &s->neighbours, i);
-    sum.force += (double4){g->load[i].x, g->load[i].y, g->load[i].z, 0.0};
-    sum.torque += (double4){g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
+    double8 sum = contact_sums(s->contacts, &s->neighbours, i).both;
+    if (k->loaded)
+        sum += (double8){g->load[i].x,        g->load[i].y,        g->load[i].z,        0.0,
+                         g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
     return sum;
 }
 
-static inline vec3 acceleration(const struct sim *s, int i, vec3 force)
+/* Accelerations of grain i, linear and angular; 0 behind each. */
+static inline double8 rates(const struct sim *s, const struct kicks *k, int i, double8 forces)
 {
-    return v3_axpy(s->domain.gravity, s->grains.inv_mass[i], force);
+    const double m = s->grains.inv_mass[i], j = s->grains.inv_inertia[i];
+    return k->gravity + (double8){m, m, m, 0.0, j, j, j, 0.0} * forces;
 }
 
-static inline void kick(struct sim *s, int i, vec3 a, vec3 torque)
+static inline struct motion_state state_of(const struct grains *g, int i)
+{
+    const vec3 x = g->pos[i], v = g->vel[i], w = g->spin[i];
+    return (struct motion_state){
+        .pos = {x.x, x.y, x.z, 0.0},
+        .vel_spin = {v.x, v.y, v.z, g->inv_mass[i], w.x, w.y, w.z, g->radius[i]}};
+}
+
+/* Half a kick and the drift; writes body and position. Returns the square of the speed. */
+static inline double kick_drift(struct sim *s, const struct kicks *k, int i,
+                                struct motion_state m, double8 rate)
 {
     struct grains *const g = &s->grains;
-    const double half = 0.5 * s->run.dt;
-    g->vel[i] = v3_axpy(g->vel[i], half, a);
-    g->spin[i] = v3_axpy(g->spin[i], half * g->inv_inertia[i], torque);
-}
-
-/* Returns the square of the speed. */
-static inline double kick_drift(struct sim *s, int i, vec3 a, vec3 torque)
-{
-    struct grains *const g = &s->grains;
-    struct body *const b = &s->bodies[i];
-    kick(s, i, a, torque);
-    g->pos[i] = v3_axpy(g->pos[i], s->run.dt, g->vel[i]);
-    const vec3 v = g->vel[i], w = g->spin[i], full = v3_axpy(v, 0.5 * s->run.dt, a);
-    b->place = frame_place(&s->frame, g->pos[i]);
-    b->vel = (real4){(real)v.x, (real)v.y, (real)v.z, (real)g->inv_mass[i]};
-    b->full = (real4){(real)full.x, (real)full.y, (real)full.z, (real)grain_material(g, i)};
-    b->spin = (real4){(real)w.x, (real)w.y, (real)w.z, (real)g->radius[i]};
-    return v3_dot(v, v);
-}
-
-static void set_forces(struct grains *g, int i, struct sums sum)
-{
-    g->force[i] = v3(sum.force[0], sum.force[1], sum.force[2]);
-    g->torque[i] = v3(sum.torque[0], sum.torque[1], sum.torque[2]);
+    m.vel_spin += k->half * rate;
+    const double8 full = m.vel_spin + k->half * rate;
+    const double4 v = {m.vel_spin[0], m.vel_spin[1], m.vel_spin[2], 0.0};
+    m.pos += k->dt * v;
+    g->pos[i] = motion_pos(&m);
+    if (BODY_IS_FLOAT) {
+        g->vel[i] = motion_vel(&m);
+        g->spin[i] = motion_spin(&m);
+    }
+    const double material = (double)s->bodies[i].full[3];
+    body_write(&s->bodies[i], &s->frame, &m, (double4){full[0], full[1], full[2], material});
+    const double4 square = v * v;
+    return square[0] + square[1] + square[2];
 }
 
 /* Runs of grains, shared out like those of the contact loop, so that a thread moves what it has
@@ -82,35 +102,53 @@ static int run_end(const struct sim *s, int run)
 void motion_start(struct sim *s, int parity)
 {
     const struct grains *const g = &s->grains;
+    const struct kicks k = kicks_of(s);
     double fastest = 0.0;
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < (g->n + RUN - 1) / RUN; run++)
         for (int i = run * RUN; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
+            const vec3 f = g->force[i], t = g->torque[i];
+            const double8 at_hand = {f.x, f.y, f.z, 0.0, t.x, t.y, t.z, 0.0};
+            s->bodies[i].full[3] = (real)grain_material(g, i);
             const double square =
-                kick_drift(s, i, acceleration(s, i, g->force[i]), g->torque[i]);
+                kick_drift(s, &k, i, state_of(g, i), rates(s, &k, i, at_hand));
             fastest = square <= fastest ? fastest : square; /* not a number counts as fast */
         }
     neighbours_speed(s, parity, fastest);
 #pragma omp barrier
 }
 
+static void set_forces(struct grains *g, int i, double8 f)
+{
+    g->force[i] = v3(f[0], f[1], f[2]);
+    g->torque[i] = v3(f[4], f[5], f[6]);
+}
+
 static void end_steps(struct sim *s)
 {
     struct grains *const g = &s->grains;
+    const struct kicks k = kicks_of(s);
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < s->neighbours.runs; run++)
         for (int i = run * RUN; i < run_end(s, run); i++) {
-            set_forces(g, i, forces(s, i));
-            if (g->inv_mass[i] != 0.0)
-                kick(s, i, acceleration(s, i, g->force[i]), g->torque[i]);
+            const double8 f = forces(s, &k, i);
+            set_forces(g, i, f);
+            if (g->inv_mass[i] == 0.0)
+                continue;
+            struct motion_state m =
+                body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
+            m.vel_spin += k.half * rates(s, &k, i, f);
+            g->vel[i] = motion_vel(&m);
+            g->spin[i] = motion_spin(&m);
         }
 }
 
 void motion_turn(struct sim *s, bool last, int parity)
 {
     struct grains *const g = &s->grains;
+    const struct kicks k = kicks_of(s);
     double fastest = 0.0;
     if (last) {
         end_steps(s);
@@ -121,12 +159,11 @@ void motion_turn(struct sim *s, bool last, int parity)
         for (int i = run * RUN; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
-            const struct sums sum = forces(s, i);
-            const vec3 force = v3(sum.force[0], sum.force[1], sum.force[2]);
-            const vec3 torque = v3(sum.torque[0], sum.torque[1], sum.torque[2]);
-            const vec3 a = acceleration(s, i, force);
-            kick(s, i, a, torque);
-            const double square = kick_drift(s, i, a, torque);
+            const double8 rate = rates(s, &k, i, forces(s, &k, i));
+            struct motion_state m =
+                body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
+            m.vel_spin += k.half * rate;
+            const double square = kick_drift(s, &k, i, m, rate);
             fastest = square <= fastest ? fastest : square;
         }
     neighbours_speed(s, parity, fastest);
@@ -135,10 +172,11 @@ void motion_turn(struct sim *s, bool last, int parity)
 
 void motion_forces(struct sim *s)
 {
+    const struct kicks k = kicks_of(s);
 #pragma omp for schedule(static)
     for (int run = 0; run < s->neighbours.runs; run++)
         for (int i = run * RUN; i < run_end(s, run); i++)
-            set_forces(&s->grains, i, forces(s, i));
+            set_forces(&s->grains, i, forces(s, &k, i));
 }
 
 void motion_guard(const struct sim *s)

@@ -79,11 +79,8 @@ void neighbours_free(struct sim *s)
 static void choose_skins(struct sim *s)
 {
     const struct grains *const g = &s->grains;
-    double fastest = 0.0;
-    for (int i = 0; i < g->n; i++)
-        fastest = fmax(fastest, v3_dot(g->vel[i], g->vel[i]));
     const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
-    const double way = 2.0 * sqrt(fastest) * s->run.dt;
+    const double way = 2.0 * s->neighbours.way;
     s->neighbours.skin = fmin(fmax(SKIN_STEPS * way, SKIN_LEAST * mean), SKIN_MOST * mean);
     const double inner = fmin(INNER_STEPS * way, INNER_MOST * mean);
     s->neighbours.inner = inner > 2.0 * way ? inner : 0.0;
@@ -317,8 +314,10 @@ void neighbours_speed(struct sim *s, int step, double square)
 struct ageing neighbours_ageing(const struct sim *s, bool new)
 {
     const struct neighbours *const nb = &s->neighbours;
-    return (struct ageing){
-        .moved = nb->moved, .moved_inner = new ? 0.0 : nb->moved_inner, .choose = true};
+    return (struct ageing){.way = nb->way,
+                           .moved = nb->moved,
+                           .moved_inner = new ? 0.0 : nb->moved_inner,
+                           .choose = true};
 }
 
 /* The speeds of two steps are kept apart, so that one can be cleared while the other is read. */
@@ -326,6 +325,7 @@ bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
 {
     struct neighbours *const nb = &s->neighbours;
     const double way = sqrt(nb->fastest[step % 2]) * s->run.dt;
+    age->way = way;
     age->moved += way;
     age->moved_inner += way;
     if (!(age->moved <= 0.5 * nb->skin))
@@ -343,6 +343,7 @@ bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
 void neighbours_aged(struct sim *s, const struct ageing *age)
 {
     struct neighbours *const nb = &s->neighbours;
+    nb->way = age->way;
     nb->moved = age->moved;
     nb->moved_inner = age->moved_inner;
     nb->choices += age->choices;
@@ -357,7 +358,7 @@ void neighbours_rebuild(struct sim *s)
     choose_skins(s);
     int *const order = search_sort(&c, s, nb->reach + nb->skin);
     nb->runs = (s->grains.n + RUN - 1) / RUN;
-    bodies_sort(s, order);
+    bodies_sort(s, order, nb->listed);
     clock = timer_add(&s->timers, TIME_SORT, clock);
     make_slots(s, &c, order, true);
     make_slots(s, &c, order, false);

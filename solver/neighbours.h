@@ -45,6 +45,7 @@ struct neighbours {
         *in;      /* n + 1, halos: entries (neighbours_entry) of a grain in others' halos */
     int listed;   /* grains in the lists; newcomers stand behind them */
     double moved; /* m, that a grain may have moved since the list was made */
+    double way;   /* m, the largest of the last step */
     double moved_inner; /* m, since the active slots were chosen */
     double fastest[2];  /* m2/s2, squares of largest speeds, of the step at hand and the next */
     long builds, choices; /* lists made, active slots chosen */
@@ -62,8 +63,8 @@ void neighbours_speed(struct sim *s, int step, double square);
 
 /* How old the lists are, as every thread of a team counts it for itself. */
 struct ageing {
-    double moved, moved_inner; /* m */
-    bool choose;               /* the active slots are to be chosen anew at this step */
+    double way, moved, moved_inner; /* m */
+    bool choose;                    /* the active slots are to be chosen anew at this step */
     long choices;
 };
 

@@ -69,7 +69,7 @@ SPRING_INLINE real bonding_roll(const struct touch *t, int c, struct arrow n)
 SPRING_INLINE struct arrow bonding_turn(struct arrow held, struct arrow n, real angle)
 {
     return spring_turn(arrow_axpy(held, angle, arrow_cross(n, held)), n,
-                       1.0 / (1.0 + angle * angle), 1.0);
+                       inverse_root(1.0 + angle * angle), 1.0);
 }
 
 #endif
