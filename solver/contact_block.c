@@ -399,11 +399,8 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;
         r->touching += depth > -reach;
         r->overlap = fmax(r->overlap, depth / fmin(ri, rj));
-        if (s->contacts->watched) {
-            const int list = b->to[c] < 0;
-            const struct slots *const l = list ? &s->neighbours.walls : &s->neighbours.pairs;
-            s->contacts->seen[list][b->live[c] - l->live] = wide(b->row[0][c]);
-        }
+        if (s->contacts->watched)
+            s->contacts->seen[b->walls][b->slot[c]] = force_of(b, c);
     }
 }
 
