@@ -33,8 +33,21 @@ struct kicks {
     double half;     /* s */
     double4 dt;      /* s, 0 behind the position */
     double8 gravity; /* m/s2, 0 but for the velocity */
-    bool loaded;     /* the fluid acts */
+    bool loaded;     /* some grain bears a load */
 };
+
+void motion_sense_loads(struct sim *s)
+{
+    const struct grains *const g = &s->grains;
+    bool loaded = false;
+#pragma omp parallel for schedule(static) reduction(|| : loaded)
+    for (int i = 0; i < g->n; i++) {
+        const vec3 f = g->load[i], t = g->load_torque[i];
+        loaded = loaded || f.x != 0.0 || f.y != 0.0 || f.z != 0.0 || t.x != 0.0 || t.y != 0.0 ||
+                 t.z != 0.0;
+    }
+    s->loaded = loaded;
+}
 
 static struct kicks kicks_of(const struct sim *s)
 {
@@ -43,7 +56,7 @@ static struct kicks kicks_of(const struct sim *s)
     return (struct kicks){.half = 0.5 * dt,
                           .dt = {dt, dt, dt, 0.0},
                           .gravity = {g.x, g.y, g.z, 0.0, 0.0, 0.0, 0.0, 0.0},
-                          .loaded = s->fluid.exists};
+                          .loaded = s->loaded};
 }
 
 /* All forces on a grain but its weight; torque behind. */

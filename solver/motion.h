@@ -8,6 +8,10 @@
 
 struct sim;
 
+/* Looks whether any grain bears a load of the fluid (or of whoever set one): if not, the steps
+ * until the next look need not read them. By one thread. */
+void motion_sense_loads(struct sim *s);
+
 /* Half a kick with the forces at hand and a drift over run.dt: positions at the end of the step,
  * velocities at its middle; writes the bodies, notes the largest speed (neighbours_speed, for
  * step `parity`). Ends with all threads together. */

@@ -40,6 +40,7 @@ void sim_start(struct sim *s)
 {
     if (s->grains.n == s->grains.n_frozen)
         return;
+    motion_sense_loads(s);
     bodies_fill(s);
     neighbours_rebuild(s);
     contact_prepare(s);

@@ -45,6 +45,7 @@ static int team_steps(struct sim *s, int n, bool drifted)
 void step_grains(struct sim *s, int n)
 {
     bool drifted = false;
+    motion_sense_loads(s);
     for (int left = n; left > 0;) {
         int done = 0;
 #pragma omp parallel
