@@ -4,6 +4,7 @@
 #   the shipped scenes against their references
 #   a bed of uniform porosity: the drag law's pressure drop, two laws, two solvers
 #   lid-driven cavities; the noise of the pressure when a grain crosses faces of cells
+#   Beverloo's 5/2 power (beverloo.sh)
 #   every law of drag: its terminal velocity, its error against measured ones, its picture
 #   pressure noise and self-disturbance of every porosity answer (coupling.sh)
 set -uo pipefail
@@ -49,6 +50,9 @@ value() {
     echo
     echo "Noise of the pressure, Pa, while one grain crosses faces of cells (verify/porosity_rate.sh)"
     verify/porosity_rate.sh || bad=1
+    echo
+    echo "Beverloo's law: five circular orifices, C and k of the fit"
+    verify/beverloo.sh || bad=1
     echo
     echo "Every law of drag with an isolated sphere comes to its own terminal velocity, one-way"
     verify/drag_settling.sh || bad=1
