@@ -22,6 +22,8 @@ const struct key domain_keys[] = {
      "acceleration of gravity"},
     {"side", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s",
      "velocity of a wall in its own plane; the name of the side, \"z+\", names the section"},
+    {"side", "grains", KEY_CHOICE, "", "wall | open", "wall",
+     "what the side is for grains; open: those that leave are gone (insert.h)"},
     {"side", "head", KEY_REAL, "m", "(-inf, inf)", "0 m",
      "total head held at a side of kind head"},
     {"side", "flux", KEY_REAL, "m s-1", "(-inf, inf)", "0 m/s",
@@ -91,6 +93,9 @@ static void read_side(struct domain *d, struct scene *s, const char *name, int s
     struct side *const e = &d->side[side];
     const bool timed = e->kind == SIDE_HEAD || e->kind == SIDE_FLUX || e->kind == SIDE_INFLOW;
     e->velocity = scene_vector(s, "side", name, "velocity");
+    e->open = scene_choice(s, "side", name, "grains") == 1;
+    if (e->open && e->kind == SIDE_PERIODIC)
+        scene_error(s, "side", name, "grains", "a periodic side is no way out");
     read_course(&e->head, s, name, "head", SIDE_HEAD, e);
     read_course(&e->flux, s, name, "flux", SIDE_FLUX, e);
     read_course(&e->inflow, s, name, "inflow", SIDE_INFLOW, e);

@@ -28,6 +28,7 @@ struct side {
     struct course head;   /* m, of a side of kind head */
     struct course flux;   /* m/s, positive into the box, of a side of kind flux */
     struct course inflow; /* m/s, superficial, into the box, of a side of kind inflow */
+    bool open;            /* for grains: no wall, what leaves is gone */
     bool own_inflow;      /* else the inflow is that of [flow] */
 };
 

@@ -38,6 +38,11 @@ static double expected_speed(const struct sim *s)
         start = fmax(start, v3_norm(g->vel[i]));
         largest = fmax(largest, 2.0 * g->radius[i]);
     }
+    for (int k = 0; k < s->traffic.n_sources; k++) {
+        const struct source *const o = &s->traffic.source[k];
+        start = fmax(start, v3_norm(o->velocity) + sqrt(3.0) * o->scatter);
+        largest = fmax(largest, g->species[o->species].largest);
+    }
     for (int a = 0; a < 3; a++)
         fall += fabs(gravity[a]) * (s->domain.periodic[a] ? 10.0 * largest : s->domain.size[a]);
     return sqrt(start * start + 2.0 * fall);
@@ -52,15 +57,40 @@ static int grain_of_species(const struct sim *s, int species)
     return -1;
 }
 
-static double species_duration(const struct sim *s, int i)
+/* m; the radius of the smallest grain of a species that moves, of those that there are and those
+ * that a source may bring; 0 if there is none. */
+static double smallest(const struct sim *s, int species)
 {
     const struct grains *const g = &s->grains;
-    const int m = grain_material(g, i);
-    const double v = fmax(expected_speed(s), 1e-9);
-    double shortest = contact_duration(m, m, 0.5 * g->mass[i], 0.5 * g->radius[i], v);
+    double least = (double)INFINITY;
+    for (int i = 0; i < g->n; i++)
+        if (g->kind[i] == species && g->inv_mass[i] > 0.0)
+            least = fmin(least, g->radius[i]);
+    for (int k = 0; k < s->traffic.n_sources; k++)
+        if (s->traffic.source[k].species == species)
+            least = fmin(least, 0.5 * g->species[species].sizes.least);
+    return isfinite(least) ? least : 0.0;
+}
+
+/* kg; the mass of that grain: of one that there is, as its shape makes it, or of a sphere. */
+static double smallest_mass(const struct sim *s, int species, double radius)
+{
+    const struct grains *const g = &s->grains;
+    for (int i = 0; i < g->n; i++)
+        if (g->kind[i] == species && g->inv_mass[i] > 0.0 && g->radius[i] == radius)
+            return g->mass[i];
+    return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius *
+           g->species[species].density;
+}
+
+static double species_duration(const struct sim *s, int species, double radius)
+{
+    const int m = s->grains.species[species].material;
+    const double v = fmax(expected_speed(s), 1e-9), mass = smallest_mass(s, species, radius);
+    double shortest = contact_duration(m, m, 0.5 * mass, 0.5 * radius, v);
     for (int k = 0; k < s->walls.n; k++)
-        shortest = fmin(shortest, contact_duration(m, s->walls.wall[k].material, g->mass[i],
-                                                   g->radius[i], v));
+        shortest =
+            fmin(shortest, contact_duration(m, s->walls.wall[k].material, mass, radius, v));
     return shortest;
 }
 
@@ -68,12 +98,12 @@ double feasibility_grain_limit(const struct sim *s)
 {
     double limit = (double)INFINITY;
     for (int k = 0; k < s->grains.n_species; k++) {
-        const int i = grain_of_species(s, k);
-        if (i < 0)
+        const double radius = smallest(s, k);
+        if (radius == 0.0)
             continue;
         const struct species *const sp = &s->grains.species[k];
-        limit = fmin(limit, contact_rayleigh(sp->material, s->grains.radius[i], sp->density));
-        limit = fmin(limit, PART_OF_CONTACT * species_duration(s, i));
+        limit = fmin(limit, contact_rayleigh(sp->material, radius, sp->density));
+        limit = fmin(limit, PART_OF_CONTACT * species_duration(s, k, radius));
     }
     return limit;
 }
@@ -82,13 +112,12 @@ static void contact_lines(const struct sim *s, struct feasibility *f)
 {
     char name[64], note[96];
     for (int k = 0; k < s->grains.n_species; k++) {
-        const int i = grain_of_species(s, k);
-        if (i < 0)
+        const double radius = smallest(s, k);
+        if (radius == 0.0)
             continue;
         const struct species *const sp = &s->grains.species[k];
-        const double rayleigh =
-            contact_rayleigh(sp->material, s->grains.radius[i], sp->density);
-        const double duration = species_duration(s, i);
+        const double rayleigh = contact_rayleigh(sp->material, radius, sp->density);
+        const double duration = species_duration(s, k, radius);
         if (isfinite(rayleigh)) {
             snprintf(name, sizeof name, "Rayleigh's step, %.32s", sp->name);
             feasibility_add(f, name, "s", s->run.dt, rayleigh, true, "0.1 to 0.3 is usual");

@@ -12,7 +12,7 @@ double fluid_expected_velocity(const struct sim *s)
     }
     if (s->flow.profile == PROFILE_PARABOLIC)
         most *= 2.25; /* two pairs of walls */
-    return most / (s->grains.n > 0 ? 0.4 : 1.0);
+    return most / (s->grains.n + s->traffic.n_sources > 0 ? 0.4 : 1.0);
 }
 
 double fluid_courant_limit(const struct sim *s)

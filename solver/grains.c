@@ -165,6 +165,17 @@ void grains_reserve(struct sim *s, int n)
     g->capacity = (int)more;
 }
 
+void species_count(struct species *k, double diameter)
+{
+    if (k->n_made == k->room) {
+        const int more = 2 * k->room + 64;
+        k->made = xrealloc(k->made, (size_t)k->room, (size_t)more, sizeof *k->made);
+        k->room = more;
+    }
+    k->made[k->n_made++] = diameter;
+    k->count++;
+}
+
 double grains_widest(const struct grains *g)
 {
     double widest = 0.0;
@@ -223,7 +234,7 @@ void grains_create(struct sim *s, struct scene *scene)
     for (int i = 0; i < g->n_species; i++)
         g->species[i].count = 0;
     for (int i = 0; i < n; i++)
-        g->species[g->kind[i]].count++;
+        species_count(&g->species[g->kind[i]], f.grain[i].diameter);
     register_fields(s);
     fill_free(&f);
 }
@@ -232,7 +243,7 @@ void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
     for (int k = 0; k < g->n_species; k++)
-        sizes_free(&g->species[k].sizes);
+        xfree(g->species[k].made), sizes_free(&g->species[k].sizes);
     void *const all[] = {g->id,        g->kind,     g->pos,         g->vel,         g->spin,
                          g->force,     g->torque,   g->load,        g->load_torque, g->radius,
                          g->mass,      g->inv_mass, g->inv_inertia, g->volume,      g->species,

@@ -27,7 +27,9 @@ struct species {
     struct sizes sizes;
     double density; /* kg/m3 */
     int count;
-    bool frozen; /* never moves: a fixed skeleton */
+    int n_made, room;
+    double *made; /* m, diameters of all grains that it ever had */
+    bool frozen;  /* never moves: a fixed skeleton */
 };
 
 /* An array kept per grain outside of the field table: scratch, not sorted. */
@@ -74,6 +76,8 @@ void grains_free(struct sim *s);
 void grains_follow(struct grains *g, void **data, size_t size);
 /* Room for n grains at least, in every array kept per grain. Indices stay, pointers do not. */
 void grains_reserve(struct sim *s, int n);
+/* Notes that the species has one grain more. */
+void species_count(struct species *k, double diameter);
 /* m; radius of the widest grain that there is or that a species may still bring. */
 double grains_widest(const struct grains *g);
 

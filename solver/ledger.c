@@ -65,6 +65,7 @@ void ledger_start(struct sim *s)
     s->walls.skeleton_impulse = v3(0.0, 0.0, 0.0);
     sum_grains(s);
     l->momentum_start = l->momentum;
+    l->mass_start = l->mass;
     l->energy_start = l->kinetic + l->potential + l->elastic;
     series_add(&s->series, "kinetic_energy", "J", "kinetic energy of the grains", &l->kinetic);
     series_add(&s->series, "elastic_energy", "J", "energy in the contacts", &l->elastic);
@@ -141,6 +142,10 @@ void ledger_report(struct sim *s)
     bool closes = true;
     if (s->grains.n > s->grains.n_frozen) {
         summary_number(&s->summary, "mass_moving", l->mass, "kg");
+        const double scale = l->mass + fabs(l->mass_start) + s->traffic.mass_in;
+        closes = line(s, "ledger_mass_error",
+                      scale > 0.0 ? fabs(l->mass - l->mass_start) / scale : 0.0, 1e-12) &&
+                 closes;
         closes = line(s, "ledger_momentum_error", l->momentum_error, 1e-9) && closes;
     }
     if (s->fluid.exists && s->grains.n > 0) {

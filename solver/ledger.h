@@ -13,9 +13,10 @@
 struct sim;
 
 struct ledger {
-    double inertia;                                    /* kg, mass and added mass of these */
-    double mass;                                       /* kg of grains that move */
-    vec3 momentum, momentum_start;                     /* kg m/s */
+    double inertia;                /* kg, mass and added mass of these */
+    double mass;                   /* kg of grains that move */
+    double mass_start;             /* kg, and what came less what went since */
+    vec3 momentum, momentum_start; /* kg m/s */
     vec3 impulse_weight, impulse_walls, impulse_fluid; /* N s since the start */
     double momentum_error;              /* |change - impulses| / (sum of |impulses|) */
     double handover_error;              /* largest |to_grains + from_grains| / |to_grains| */

@@ -188,6 +188,7 @@ static int run(struct sim *s, struct scene *scene)
     output_fields(s);
     const int code = advance(s);
     output_fields(s);
+    insert_report(s);
     ledger_report(s);
     probes_report(s);
     analysis_report(s);

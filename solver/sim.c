@@ -22,6 +22,7 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     flow_read(&s->flow, scene);
     grains_create(s, scene);
     walls_create(s, scene);
+    insert_create(s, scene);
     contact_create(s, scene);
     fluid_create(s, scene);
     run_steps(s, scene);
@@ -61,6 +62,7 @@ void sim_free(struct sim *s)
     fluid_free(s);
     contact_free(s);
     neighbours_free(s);
+    insert_free(s);
     grains_free(s);
     flow_free(&s->flow);
     domain_free(&s->domain);

@@ -11,6 +11,7 @@
 #include "flow.h"
 #include "fluid/fluid.h"
 #include "grains.h"
+#include "insert.h"
 #include "ledger.h"
 #include "materials.h"
 #include "neighbours.h"
@@ -45,6 +46,7 @@ struct sim {
     struct run run;
     struct domain domain;
     struct grains grains;
+    struct traffic traffic;
     struct frame frame;
     struct body *bodies; /* per grain, as the contact loop reads it */
     struct neighbours neighbours;

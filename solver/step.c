@@ -3,6 +3,7 @@
 
 #include <omp.h>
 #include "contact_loop.h"
+#include "insert.h"
 #include "motion.h"
 #include "sim.h"
 
@@ -72,6 +73,7 @@ void step_grains(struct sim *s, int n)
 void step(struct sim *s)
 {
     struct timers *const t = &s->timers;
+    insert_step(s); /* grains that left, grains that are due */
     double clock = wall_clock();
     s->fluid.on = s->fluid.exists && s->t >= s->flow.start - 0.5 * s->run.dt;
     if (s->fluid.on) {

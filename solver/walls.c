@@ -34,7 +34,7 @@ static void add_sides(struct sim *s)
 {
     for (int side = 0; side < 6; side++) {
         const int axis = side / 2;
-        if (s->domain.periodic[axis])
+        if (s->domain.periodic[axis] || s->domain.side[side].open)
             continue;
         struct wall *const w = &s->walls.wall[s->walls.n++];
         *w = (struct wall){.material = default_material(s),

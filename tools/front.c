@@ -287,6 +287,7 @@ static int print_keys(const char *program)
     keys_print(stdout, "", run_keys);
     keys_print(stdout, "\ngrains", grains_keys);
     keys_print(stdout, "", sizes_keys);
+    keys_print(stdout, "\ngrains that come and go", insert_keys);
     keys_print(stdout, "\nwalls", wall_keys);
     for (int k = 0; analysis_parts[k]; k++)
         keys_print(stdout, k == 0 ? "\nwhat is measured" : "", analysis_parts[k]->keys);

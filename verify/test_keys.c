@@ -5,6 +5,7 @@
 #include "../solver/domain.h"
 #include "../solver/flow.h"
 #include "../solver/grains.h"
+#include "../solver/insert.h"
 #include "../solver/run.h"
 #include "../solver/walls.h"
 #include "answers.h"
@@ -60,6 +61,7 @@ int main(int argc, char **argv)
     check_table("domain", domain_keys);
     check_table("grains", grains_keys);
     check_table("sizes", sizes_keys);
+    check_table("insert", insert_keys);
     check_table("walls", wall_keys);
     check_table("run", run_keys);
     check_table("flow", flow_keys);

@@ -157,7 +157,7 @@ void fluid_create(struct sim *s, struct scene *scene)
     const int scheme = scene_choice(scene, "fluid", NULL, "convection");
     const bool implicit = scene_choice(scene, "fluid", NULL, "viscous") == 1;
     const int rate = scene_choice(scene, "fluid", NULL, "porosity_rate");
-    s->fluid.bare = s->grains.n == 0 && !scene_has(scene, "grains");
+    s->fluid.bare = s->grains.n == 0 && s->traffic.n_sources == 0;
     s->fluid.whole_pressure = form == FORM_C;
     s->fluid.pieces = !ns->adapts ? 1 : s->grains.n > s->grains.n_frozen ? 8 : 256;
     s->fluid.implicit_viscosity = implicit;
