@@ -7,21 +7,6 @@
 #include "output_file.h"
 #include "provenance_info.h"
 
-/* Indices of the grains in order of id. */
-static int *in_order(const struct grains *g)
-{
-    int *const at = xalloc((size_t)g->next_id + 1, sizeof *at);
-    int *const order = xalloc((size_t)g->n + 1, sizeof *order);
-    int n = 0;
-    for (int i = 0; i < g->n; i++)
-        at[g->id[i]] = i + 1;
-    for (int id = 0; id < g->next_id; id++)
-        if (at[id] > 0)
-            order[n++] = at[id] - 1;
-    xfree(at);
-    return order;
-}
-
 static void put_vectors(const struct output_file *f, int var, const vec3 *v, const int *order,
                         int n)
 {
@@ -79,7 +64,7 @@ void bed_file_write(const struct sim *s)
         strcat(strcat(names, k > 0 ? " " : ""), g->species[k].name);
     output_text(&f, species, "flag_meanings", names);
     output_check(&f, nc_enddef(f.nc));
-    int *const order = in_order(g);
+    int *const order = grains_order(g);
     if (g->n > 0) {
         put_vectors(&f, pos, g->pos, order, g->n);
         put_vectors(&f, vel, g->vel, order, g->n);

@@ -165,6 +165,20 @@ void grains_reserve(struct sim *s, int n)
     g->capacity = (int)more;
 }
 
+int *grains_order(const struct grains *g)
+{
+    int *const at = xalloc((size_t)g->next_id + 1, sizeof *at); /* index + 1 of an id */
+    int *const order = xalloc((size_t)g->n + 1, sizeof *order);
+    int n = 0;
+    for (int i = 0; i < g->n; i++)
+        at[g->id[i]] = i + 1;
+    for (int id = 0; id < g->next_id; id++)
+        if (at[id] > 0)
+            order[n++] = at[id] - 1;
+    xfree(at);
+    return order;
+}
+
 void species_count(struct species *k, double diameter)
 {
     if (k->n_made == k->room) {

@@ -76,6 +76,8 @@ void grains_free(struct sim *s);
 void grains_follow(struct grains *g, void **data, size_t size);
 /* Room for n grains at least, in every array kept per grain. Indices stay, pointers do not. */
 void grains_reserve(struct sim *s, int n);
+/* The indices of the grains in order of id; xfree it. */
+int *grains_order(const struct grains *g);
 /* Notes that the species has one grain more. */
 void species_count(struct species *k, double diameter);
 /* m; radius of the widest grain that there is or that a species may still bring. */

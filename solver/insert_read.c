@@ -164,7 +164,7 @@ static void read_sinks(struct sim *s, struct scene *scene)
 static void add_series(struct sim *s)
 {
     struct traffic *const t = &s->traffic;
-    series_add(&s->series, "grain_count", "1", "grains at hand", &t->grains);
+    series_add(&s->series, "grains_at_hand", "1", "grains at hand", &t->grains);
     series_add(&s->series, "grains_inserted", "1", "grains that came", &t->inserted);
     series_add(&s->series, "grains_removed", "1", "grains that went", &t->removed);
     series_add(&s->series, "mass_inserted", "kg", "mass that came", &t->mass_in);

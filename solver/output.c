@@ -144,8 +144,11 @@ void output_close(struct sim *s)
     double *const times = xalloc(n, sizeof *times);
     if (n > 0)
         output_check(f, nc_get_var_double(f->nc, f->var_time, times));
+    size_t *const count = f->count;
+    f->count = NULL;
     output_file_close(f);
-    xdmf_write(s, times, n);
+    xdmf_write(s, times, n, count);
+    xfree(count);
     write_summary(s);
     xfree(times);
 }

@@ -82,18 +82,38 @@ static void write_axes(const struct output_file *f, const struct sim *s)
         }
 }
 
+/* Two dimensions without an end: the library would take chunks of one entry. */
+static void chunk(const struct output_file *f, int var, const struct grains *g)
+{
+    const double expected = fmax(g->n, 512.0);
+    const size_t size[3] = {1, (size_t)fmin(expected, 65536.0), 3};
+    if (f->varies)
+        output_check(f, nc_def_var_chunking(f->nc, var, NC_CHUNKED, size));
+}
+
 static void define_grains(struct output_file *f, const struct sim *s)
 {
     const struct grains *const g = &s->grains;
-    define_dim(f, "grain", (size_t)g->n, DIM_GRAIN);
+    define_dim(f, "grain", f->varies ? NC_UNLIMITED : (size_t)g->n, DIM_GRAIN);
     define_dim(f, "component", 3, DIM_COMPONENT);
     int var;
     output_check(f, nc_def_var(f->nc, "component", NC_STRING, 1, &f->dim[DIM_COMPONENT], &var));
     output_text(f, var, "long_name", "component of a vector");
-    const int *const dim = &f->dim[DIM_GRAIN];
-    output_define(f, "radius", NC_DOUBLE, 1, dim, "m", "bounding radius of the grain");
-    output_define(f, "grain_mass", NC_DOUBLE, 1, dim, "kg", "mass of the grain");
-    var = output_define(f, "grain_species", NC_INT, 1, dim, "1", "species of the grain");
+    const int dims[2] = {f->dim[DIM_TIME], f->dim[DIM_GRAIN]};
+    const int *const dim = f->varies ? dims : dims + 1;
+    const int n = f->varies ? 2 : 1;
+    if (f->varies) {
+        output_define(f, "grain_count", NC_INT, 1, dims, "1",
+                      "grains of this output: the first entries along grain");
+        var = output_define(f, "grain_id", NC_INT, 2, dims, "1", "identity of the grain");
+        chunk(f, var, g);
+    }
+    var = output_define(f, "radius", NC_DOUBLE, n, dim, "m", "bounding radius of the grain");
+    chunk(f, var, g);
+    var = output_define(f, "grain_mass", NC_DOUBLE, n, dim, "kg", "mass of the grain");
+    chunk(f, var, g);
+    var = output_define(f, "grain_species", NC_INT, n, dim, "1", "species of the grain");
+    chunk(f, var, g);
     if (g->n_species == 0)
         return;
     char *const names = xalloc((size_t)g->n_species, NAME_LENGTH + 1);
@@ -111,34 +131,65 @@ static void define_grains(struct output_file *f, const struct sim *s)
 
 static void write_grains(const struct output_file *f, const struct sim *s)
 {
-    static const char *component[3] = {"x", "y", "z"};
     const struct grains *const g = &s->grains;
     const struct {
         const char *name;
         const double *value;
     } list[] = {{"radius", g->radius}, {"grain_mass", g->mass}};
-    double *const x = xalloc((size_t)g->n, sizeof *x);
-    int *const k = xalloc((size_t)g->n, sizeof *k), var;
-    for (size_t l = 0; l < sizeof list / sizeof list[0]; l++) {
+    const size_t start[2] = {f->varies ? f->n_time : 0, 0}, count[2] = {1, (size_t)g->n};
+    const int skip = f->varies ? 0 : 1;
+    double *const x = xalloc((size_t)g->n + 1, sizeof *x);
+    int *const k = xalloc((size_t)g->n + 1, sizeof *k), *const order = grains_order(g), var;
+    for (size_t l = 0; l < sizeof list / sizeof list[0] && g->n > 0; l++) {
         for (int i = 0; i < g->n; i++)
-            x[g->id[i]] = list[l].value[i];
+            x[i] = list[l].value[order[i]];
         output_check(f, nc_inq_varid(f->nc, list[l].name, &var));
-        output_check(f, nc_put_var_double(f->nc, var, x));
+        output_check(f, nc_put_vara_double(f->nc, var, start + skip, count + skip, x));
     }
     for (int i = 0; i < g->n; i++)
-        k[g->id[i]] = g->kind[i];
+        k[i] = g->kind[order[i]];
     output_check(f, nc_inq_varid(f->nc, "grain_species", &var));
-    output_check(f, nc_put_var_int(f->nc, var, k));
-    output_check(f, nc_inq_varid(f->nc, "component", &var));
-    output_check(f, nc_put_var_string(f->nc, var, component));
+    if (g->n > 0)
+        output_check(f, nc_put_vara_int(f->nc, var, start + skip, count + skip, k));
+    for (int i = 0; i < g->n; i++)
+        k[i] = g->id[order[i]];
+    if (f->varies && g->n > 0) {
+        output_check(f, nc_inq_varid(f->nc, "grain_id", &var));
+        output_check(f, nc_put_vara_int(f->nc, var, start, count, k));
+    }
+    xfree(order);
     xfree(x);
     xfree(k);
+}
+
+static void write_components(const struct output_file *f)
+{
+    static const char *component[3] = {"x", "y", "z"};
+    int var;
+    output_check(f, nc_inq_varid(f->nc, "component", &var));
+    output_check(f, nc_put_var_string(f->nc, var, component));
+}
+
+/* Sizes, species and ids of this record. */
+static void record_grains(struct output_file *f, const struct sim *s)
+{
+    int var;
+    f->count = xrealloc(f->count, f->n_time, f->n_time + 1, sizeof *f->count);
+    f->count[f->n_time] = (size_t)s->grains.n;
+    output_check(f, nc_inq_varid(f->nc, "grain_count", &var));
+    output_check(f, nc_put_var1_int(f->nc, var, &f->n_time, &s->grains.n));
+    write_grains(f, s);
+}
+
+static bool has_grains(const struct sim *s)
+{
+    return s->grains.n > 0 || insert_changes(s);
 }
 
 static bool is_written(const struct sim *s, const struct field *field)
 {
     return field->flags & FIELD_OUTPUT &&
-           (field->place == PLACE_GRAIN ? s->grains.n > 0 : s->fluid.exists);
+           (field->place == PLACE_GRAIN ? has_grains(s) : s->fluid.exists);
 }
 
 /* Dimensions of a field's variable; returns how many. */
@@ -168,6 +219,8 @@ static void define_fields(struct output_file *f, const struct sim *s)
         f->var_field[i] =
             output_define(f, field->name, field->kind == KIND_INT ? NC_INT : NC_DOUBLE, n, dims,
                           field->unit, field->long_name);
+        if (field->place == PLACE_GRAIN)
+            chunk(f, f->var_field[i], &s->grains);
     }
 }
 
@@ -195,7 +248,8 @@ void output_file_open(struct output_file *f, const struct sim *s, const char *na
     f->var_time =
         output_define(f, "time", NC_DOUBLE, 1, &f->dim[DIM_TIME], "s", "simulated time");
     output_text(f, f->var_time, "axis", "T");
-    if (s->grains.n > 0)
+    f->varies = insert_changes(s);
+    if (has_grains(s))
         define_grains(f, s);
     if (s->fluid.exists)
         define_axes(f, s);
@@ -205,7 +259,9 @@ void output_file_open(struct output_file *f, const struct sim *s, const char *na
 void output_file_begin(struct output_file *f, const struct sim *s)
 {
     output_check(f, nc_enddef(f->nc));
-    if (s->grains.n > 0)
+    if (has_grains(s))
+        write_components(f);
+    if (has_grains(s) && !f->varies)
         write_grains(f, s);
     if (s->fluid.exists)
         write_axes(f, s);
@@ -231,13 +287,14 @@ static void *pack(const struct sim *s, const struct field *field, size_t count[5
 }
 
 /* The entries of the grains in order of id. */
-static void *by_id(const struct sim *s, const struct field *field, size_t count[5])
+static void *by_id(const struct sim *s, const struct field *field, const int *order,
+                   size_t count[5])
 {
     const size_t size = kind_size(field->kind);
-    char *const x = xalloc((size_t)s->grains.n, size);
+    char *const x = xalloc((size_t)s->grains.n + 1, size);
     const char *const from = *field->data;
     for (int i = 0; i < s->grains.n; i++)
-        memcpy(x + (size_t)s->grains.id[i] * size, from + (size_t)i * size, size);
+        memcpy(x + (size_t)i * size, from + (size_t)order[i] * size, size);
     count[1] = (size_t)s->grains.n;
     count[2] = 3;
     return x;
@@ -247,18 +304,22 @@ void output_file_record(struct output_file *f, const struct sim *s)
 {
     const size_t start[5] = {f->n_time, 0, 0, 0, 0};
     output_check(f, nc_put_var1_double(f->nc, f->var_time, start, &s->t));
+    if (f->varies)
+        record_grains(f, s);
+    int *const order = has_grains(s) ? grains_order(&s->grains) : NULL;
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const field = &s->fields.field[i];
         size_t count[5] = {1, 1, 1, 1, 1};
-        if (!is_written(s, field))
+        if (!is_written(s, field) || (field->place == PLACE_GRAIN && s->grains.n == 0))
             continue;
         void *const x =
-            field->place == PLACE_GRAIN ? by_id(s, field, count) : pack(s, field, count);
+            field->place == PLACE_GRAIN ? by_id(s, field, order, count) : pack(s, field, count);
         output_check(f, field->kind == KIND_INT
                             ? nc_put_vara_int(f->nc, f->var_field[i], start, count, x)
                             : nc_put_vara_double(f->nc, f->var_field[i], start, count, x));
         xfree(x);
     }
+    xfree(order);
     f->n_time++;
     output_check(f, nc_sync(f->nc));
 }
@@ -272,5 +333,6 @@ void output_file_close(struct output_file *f)
     xfree(f->part);
     xfree(f->var_field);
     xfree(f->var_series);
+    xfree(f->count);
     *f = (struct output_file){.nc = -1};
 }

@@ -27,6 +27,8 @@ struct output_file {
     int var_time, var_sample;
     int *var_field, *var_series;
     size_t n_time, n_sample;
+    bool varies;   /* the number of grains: each record has its own sizes, species and ids */
+    size_t *count; /* grains per record, where it varies */
 };
 
 /* Ends the run (EXIT_WRITE) with path and reason where a netCDF call has failed. */

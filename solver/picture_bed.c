@@ -12,11 +12,11 @@
 enum { MOST_GRAINS = 20000, LEFT = 85, GAP = 60, TOP = 95, BOTTOM = 165, PROFILE = 300 };
 
 struct bed {
-    size_t n, times, shown[2];
+    size_t n[2], times, shown[2];
     int panels;
     double size[3];         /* m, of the box */
     double low[2], high[2]; /* m, range of x and z shown */
-    double *radius, *species, *time;
+    double *radius[2], *species[2], *time;
     double *pos[2], *vel[2]; /* n x 3 */
     double fastest; /* m/s, the 99th percentile: a few outliers do not rule the scale */
     bool profile;
@@ -51,18 +51,18 @@ static double percentile_99(const double *vel, size_t n)
 static void choose_range(struct bed *b, const int periodic[3])
 {
     double top = 0.0, widest = 0.0;
-    for (size_t i = 0; i < b->n; i++) {
-        widest = fmax(widest, b->radius[i]);
-        for (int k = 0; k < b->panels; k++)
-            top = fmax(top, b->pos[k][3 * i + 2] + b->radius[i]);
-    }
+    for (int k = 0; k < b->panels; k++)
+        for (size_t i = 0; i < b->n[k]; i++) {
+            widest = fmax(widest, b->radius[k][i]);
+            top = fmax(top, b->pos[k][3 * i + 2] + b->radius[k][i]);
+        }
     const double edge =
         periodic[0] ? widest : 0.0; /* grains may stick out of a periodic side */
     b->low[0] = -edge;
     b->high[0] = b->size[0] + edge;
     b->low[1] = periodic[2] ? -widest : 0.0;
     b->high[1] = b->size[2] - b->low[1];
-    if (b->n > 1)
+    if (b->n[0] > 1)
         b->high[1] = fmin(b->high[1], 1.15 * top);
 }
 
@@ -88,26 +88,50 @@ static int panel_step(const struct bed *b)
     return (b->across < 260 ? 260 : b->across) + GAP;
 }
 
+/* Grains of panel k with their sizes: the same at all times, or those of its output. */
+static bool read_sizes(const struct run_file *r, struct bed *b, int k, const double *count)
+{
+    size_t n = 0;
+    const size_t t = b->shown[k];
+    b->radius[k] =
+        count ? run_record(r, "radius", t, &b->n[k]) : run_all(r, "radius", &b->n[k]);
+    b->species[k] =
+        count ? run_record(r, "grain_species", t, &n) : run_all(r, "grain_species", &n);
+    const bool good = b->radius[k] && b->species[k] && n == b->n[k];
+    if (count)
+        b->n[k] = count[t] < (double)n ? (size_t)count[t] : n;
+    return good && b->n[k] > 0;
+}
+
 static bool read_bed(const struct run_file *r, struct bed *b)
 {
     int periodic[3];
     size_t got[2] = {0, 0}, n = 0;
-    b->radius = run_all(r, "radius", &b->n);
     b->time = run_all(r, "time", &b->times);
-    b->species = run_all(r, "grain_species", &n);
-    if (b->n == 0 || b->times == 0 || n != b->n || !b->radius || !b->time || !b->species ||
+    if (b->times == 0 || !b->time ||
         nc_get_att_double(r->nc, NC_GLOBAL, "domain_size", b->size) != NC_NOERR ||
         nc_get_att_int(r->nc, NC_GLOBAL, "domain_periodic", periodic) != NC_NOERR)
         return false;
     b->shown[1] = b->times - 1;
+    double *const count = run_all(r, "grain_count", &n);
     b->panels = b->times > 1 ? 2 : 1;
-    for (int k = 0; k < b->panels; k++) {
+    if (count && count[0] < 1.0) { /* nothing to see at the start */
+        b->panels = 1;
+        b->shown[0] = b->times - 1;
+    }
+    bool good = true;
+    for (int k = 0; k < b->panels; k++)
+        good = read_sizes(r, b, k, count) && good;
+    xfree(count);
+    for (int k = 0; k < b->panels && good; k++) {
         b->pos[k] = run_record(r, "position", b->shown[k], &got[0]);
         b->vel[k] = run_record(r, "velocity", b->shown[k], &got[1]);
-        if (!b->pos[k] || !b->vel[k] || got[0] != 3 * b->n || got[1] != 3 * b->n)
-            return false;
-        b->fastest = fmax(b->fastest, percentile_99(b->vel[k], b->n));
+        good = b->pos[k] && b->vel[k] && got[0] >= 3 * b->n[k] && got[1] >= 3 * b->n[k];
+        if (good)
+            b->fastest = fmax(b->fastest, percentile_99(b->vel[k], b->n[k]));
     }
+    if (!good)
+        return false;
     b->profile = run_variable(r, "fluid_fraction") >= 0 && run_length(r, "z") > 1;
     choose_range(b, periodic);
     choose_pixels(b);
@@ -128,17 +152,17 @@ static int farthest_first(const void *a, const void *b)
 /* Discs: x, z, radius in mm; speed in mm/s or the species. */
 static void send_grains(FILE *to, const struct bed *b, int k)
 {
-    struct depth *const order = xalloc(b->n, sizeof *order);
-    for (size_t i = 0; i < b->n; i++)
+    struct depth *const order = xalloc(b->n[k], sizeof *order);
+    for (size_t i = 0; i < b->n[k]; i++)
         order[i] = (struct depth){b->pos[k][3 * i + 1], i};
-    qsort(order, b->n, sizeof *order, farthest_first);
+    qsort(order, b->n[k], sizeof *order, farthest_first);
     fprintf(to, "$g%d << END\n", k);
-    for (size_t m = b->n > MOST_GRAINS ? b->n - MOST_GRAINS : 0; m < b->n; m++) {
+    for (size_t m = b->n[k] > MOST_GRAINS ? b->n[k] - MOST_GRAINS : 0; m < b->n[k]; m++) {
         const size_t i = order[m].i;
         const double *const x = &b->pos[k][3 * i];
         const double at = b->low[0] < 0.0 ? x[0] - b->size[0] * floor(x[0] / b->size[0]) : x[0];
-        fprintf(to, "%.6g %.6g %.6g %.5g\n", 1e3 * at, 1e3 * x[2], 1e3 * b->radius[i],
-                b->fastest > 0.0 ? 1e3 * speed(b->vel[k], i) : b->species[i]);
+        fprintf(to, "%.6g %.6g %.6g %.5g\n", 1e3 * at, 1e3 * x[2], 1e3 * b->radius[k][i],
+                b->fastest > 0.0 ? 1e3 * speed(b->vel[k], i) : b->species[k][i]);
     }
     fprintf(to, "END\n");
     xfree(order);
@@ -183,7 +207,8 @@ static void set_colours(const struct run_file *r, const struct picture *p, const
             "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
             "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
             1e3 * b->fastest, (double)LEFT / p->width, 62.0 / p->height, 260.0 / p->width,
-            14.0 / p->height, b->n >= 100 ? " (the fastest 1 % lie above the scale)" : "",
+            14.0 / p->height,
+            b->n[b->panels - 1] >= 100 ? " (the fastest 1 % lie above the scale)" : "",
             (LEFT + 275.0) / p->width, 69.0 / p->height);
         return;
     }
@@ -249,8 +274,8 @@ static void draw(const struct run_file *r, const struct bed *b)
         picture_open(r, "bed.png", width < 520 ? 520 : width, TOP + b->up + BOTTOM);
     FILE *const to = p.gnuplot;
     char *const scene = picture_scene(r);
-    char *const head =
-        xprintf("%s: %zu grain%s, from the side", scene, b->n, b->n > 1 ? "s" : "");
+    char *const head = xprintf("%s: %zu grain%s, from the side", scene, b->n[b->panels - 1],
+                               b->n[b->panels - 1] > 1 ? "s" : "");
     fprintf(to, "set multiplot\n");
     picture_text(to, "label 2", head, "at screen 0.5,0.965 center font ',16' noenhanced");
     set_colours(r, &p, b);
@@ -273,7 +298,8 @@ void picture_bed(const struct run_file *r)
     struct bed b = {0};
     if (read_bed(r, &b))
         draw(r, &b);
-    void *const all[] = {b.radius, b.species, b.time, b.pos[0], b.pos[1], b.vel[0], b.vel[1]};
+    void *const all[] = {b.radius[0], b.radius[1], b.species[0], b.species[1], b.time,
+                         b.pos[0],    b.pos[1],    b.vel[0],     b.vel[1]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

@@ -2,19 +2,22 @@
  * each. */
 #include "xdmf.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include "output_file.h"
 
-/* Slab t of variable `name` with dimensions (time, dims...). */
-static void item(FILE *o, const char *name, size_t t, size_t n_time, int n, const int *dims)
+/* Slab t of variable `name` with dimensions (time, dims...), of which the first in the file is
+ * `most`. */
+static void item(FILE *o, const char *name, size_t t, size_t n_time, int n, const int *dims,
+                 int most)
 {
     char slab[128] = "", ones[64] = "", size[128] = "", all[128] = "";
     for (int i = 0; i < n; i++) {
         snprintf(slab + strlen(slab), sizeof slab - strlen(slab), " 0");
         snprintf(ones + strlen(ones), sizeof ones - strlen(ones), " 1");
         snprintf(size + strlen(size), sizeof size - strlen(size), " %d", dims[i]);
-        snprintf(all + strlen(all), sizeof all - strlen(all), " %d", dims[i]);
+        snprintf(all + strlen(all), sizeof all - strlen(all), " %d", i == 0 ? most : dims[i]);
     }
     fprintf(
         o,
@@ -26,35 +29,40 @@ static void item(FILE *o, const char *name, size_t t, size_t n_time, int n, cons
 }
 
 static void attribute(FILE *o, const struct field *field, const char *centre, size_t t,
-                      size_t n_time, int n, const int *dims)
+                      size_t n_time, int n, const int *dims, int most)
 {
     fprintf(o, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field->name,
             field->kind == KIND_VEC3 ? "Vector" : "Scalar", centre);
-    item(o, field->name, t, n_time, n, dims);
+    item(o, field->name, t, n_time, n, dims, most);
     fprintf(o, "</Attribute>\n");
 }
 
-static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double time)
+/* Grains at output t: n of them, of rows that hold `most`; their radii change with t or not. */
+static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double time, int n,
+                   int most, bool varies)
 {
-    const int dims[2] = {s->grains.n, 3};
+    const int dims[2] = {n, 3};
     fprintf(o,
             "<Grid Name=\"grains\"><Time Value=\"%.17g\"/>\n"
             "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%d\" "
             "NodesPerElement=\"1\"/>\n"
             "<Geometry GeometryType=\"XYZ\">\n",
-            time, s->grains.n);
-    item(o, "position", t, n_time, 2, dims);
-    fprintf(
-        o,
-        "</Geometry>\n<Attribute Name=\"radius\" Center=\"Node\"><DataItem Dimensions=\"%d\" "
-        "NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">run.nc:/radius</DataItem>"
-        "</Attribute>\n",
-        s->grains.n);
+            time, n);
+    item(o, "position", t, n_time, 2, dims, most);
+    fprintf(o, "</Geometry>\n<Attribute Name=\"radius\" Center=\"Node\">");
+    if (varies)
+        item(o, "radius", t, n_time, 1, dims, most);
+    else
+        fprintf(o,
+                "<DataItem Dimensions=\"%d\" "
+                "NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">run.nc:/radius</DataItem>",
+                n);
+    fprintf(o, "</Attribute>\n");
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_GRAIN && f->flags & FIELD_OUTPUT && f->kind != KIND_INT &&
             strcmp(f->name, "position") != 0)
-            attribute(o, f, "Node", t, n_time, f->kind == KIND_VEC3 ? 2 : 1, dims);
+            attribute(o, f, "Node", t, n_time, f->kind == KIND_VEC3 ? 2 : 1, dims, most);
     }
     fprintf(o, "</Grid>\n");
 }
@@ -73,23 +81,31 @@ static void cells(FILE *o, const struct sim *s, size_t t, size_t n_time, double 
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_CELL && f->flags & FIELD_OUTPUT)
-            attribute(o, f, "Cell", t, n_time, 3, dims);
+            attribute(o, f, "Cell", t, n_time, 3, dims, dims[0]);
     }
     fprintf(o, "</Grid>\n");
 }
 
-void xdmf_write(const struct sim *s, const double *times, size_t n_time)
+void xdmf_write(const struct sim *s, const double *times, size_t n_time, const size_t *count)
 {
+    int most = s->grains.n;
+    for (size_t t = 0; count && t < n_time; t++)
+        most = (int)count[t] > most ? (int)count[t] : most;
     char *const path = xprintf("%s/run.xmf", s->run.directory);
     FILE *const o = output_text_open(path);
     fprintf(o, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n");
     for (int what = 0; what < 2; what++) {
-        if (what == 0 ? s->grains.n == 0 : !s->fluid.exists)
+        if (what == 0 ? most == 0 : !s->fluid.exists)
             continue;
         fprintf(o, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
                 what == 0 ? "grains" : "fluid");
-        for (size_t t = 0; t < n_time; t++)
-            (what == 0 ? grains : cells)(o, s, t, n_time, times[t]);
+        for (size_t t = 0; t < n_time; t++) {
+            const int n = count ? (int)count[t] : s->grains.n;
+            if (what == 1)
+                cells(o, s, t, n_time, times[t]);
+            else if (n > 0)
+                grains(o, s, t, n_time, times[t], n, most, count != NULL);
+        }
         fprintf(o, "</Grid>\n");
     }
     fprintf(o, "</Domain></Xdmf>\n");

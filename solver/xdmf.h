@@ -6,7 +6,8 @@
 
 struct sim;
 
-/* Writes run.xmf for the outputs at these times, s. */
-void xdmf_write(const struct sim *s, const double *times, size_t n_time);
+/* Writes run.xmf for the outputs at these times, s; `count`: grains of each, or NULL where they
+ * are always the same. */
+void xdmf_write(const struct sim *s, const double *times, size_t n_time, const size_t *count);
 
 #endif

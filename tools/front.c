@@ -19,6 +19,7 @@
 #include "../solver/force_names.h"
 #include "../solver/grains.h"
 #include "../solver/probes.h"
+#include "../solver/insert.h"
 #include "../solver/run.h"
 #include "../solver/walls.h"
 

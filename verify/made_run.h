@@ -50,7 +50,7 @@ static inline void make_grains(struct sim *s)
 {
     static struct species species[2] = {{.name = "glass"}, {.name = "steel"}};
     struct grains *const g = &s->grains;
-    g->n = g->capacity = GRAINS;
+    g->n = g->capacity = g->next_id = GRAINS;
     g->n_species = 2;
     g->species = species;
     g->id = xalloc(GRAINS, sizeof *g->id);
