@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 #include "../reference/reference.h"
+#include "bed_file.h"
 #include "feasibility.h"
 #include "fill.h"
 #include "log.h"
@@ -181,12 +182,16 @@ static int run(struct sim *s, struct scene *scene)
     sim_start(s);
     if (fill_settles(s, scene))
         settle(s);
+    if (s->run.save_bed == SAVE_START)
+        bed_file_write(s);
     ledger_start(s);
     analysis_start(s);
     if (s->fluid.exists)
         fluid_sense(s); /* the porosity at the start, for the output */
     output_fields(s);
     const int code = advance(s);
+    if (s->run.save_bed == SAVE_END)
+        bed_file_write(s);
     output_fields(s);
     insert_report(s);
     ledger_report(s);

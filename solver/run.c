@@ -28,6 +28,10 @@ const struct key run_keys[] = {
      "time between outputs of grains and fields; ends: first and last only"},
     {"output", "series", KEY_REAL, "s", "auto | (0, inf)", "auto",
      "time between samples of the time series; auto: 500 samples"},
+    {"output", "bed", KEY_CHOICE, "", "none | start | end", "none",
+     "writes bed.nc, which fill = file of another scene takes: the grains at the start "
+     "(settled, "
+     "if they settle), or at the end"},
     {"output", "slice", KEY_CHOICE, "", "auto | x | y | z | off", "auto",
      "across which axis pictures of the fluid are cut; auto: a thin direction, else y"},
     {"output", "slice_at", KEY_REAL, "m", "middle | [0, inf)", "middle", "where they are cut"},
@@ -50,6 +54,7 @@ void run_read(struct sim *s, struct scene *scene)
     r->output_every = scene_word(scene, "output", NULL, "every", "ends")
                           ? (double)INFINITY
                           : scene_real(scene, "output", NULL, "every");
+    r->save_bed = (enum save_bed)scene_choice(scene, "output", NULL, "bed");
     scene_choice(scene, "output", NULL, "slice"); /* for the pictures: read from run.nc */
     if (!scene_word(scene, "output", NULL, "slice_at", "middle"))
         scene_real(scene, "output", NULL, "slice_at");

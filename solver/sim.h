@@ -22,6 +22,8 @@
 struct probes;       /* what is measured of the fluid */
 struct contact_work; /* scratch of the contact loop */
 
+enum save_bed { SAVE_NONE, SAVE_START, SAVE_END };
+
 struct run {
     double end;           /* s */
     double dt;            /* s, grains' step */
@@ -35,6 +37,7 @@ struct run {
     char *directory;                   /* of the outputs */
     double output_every;               /* s, fields and grains; INFINITY: first and last only */
     double series_every;               /* s */
+    enum save_bed save_bed;            /* when bed.nc is written */
     bool done;                         /* what the run was for has been found: it ends */
     const volatile sig_atomic_t *stop; /* not zero: a signal asks the run to end; or NULL */
 };

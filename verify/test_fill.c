@@ -2,6 +2,7 @@
 /* slots: contact/linear */
 #include "check.h"
 #include <string.h>
+#include "../solver/bed_file.h"
 #include "harness.h"
 
 #define MATERIAL "[material m]\nstiffness = 2e5 N/m\nrestitution = 0.8\nfriction = 0.3\n"
@@ -79,6 +80,45 @@ static void check_file(void)
     unlink(path);
 }
 
+#define TWO(how)                                                                               \
+    "[grains a]\ndiameter = 1.3 mm\ndensity = 2500 kg/m3\nmaterial = m\n" how                  \
+    "[grains b]\ndiameter = 0.9 mm\ndensity = 2900 kg/m3\nmaterial = m\n" how BOX MATERIAL     \
+    "[run]\nend = 1 s\ndt = 1.7 us\n"
+
+/* A bed in motion is saved and read again, species by species: every bit of it. */
+static void check_saved(void)
+{
+    char folder[] = "/tmp/silt-saved-XXXXXX";
+    struct sim *const s =
+        sim_from(TWO("count = 90\nfill = random\nvelocity = 0.1 0.2 -0.3 m/s\n"));
+    step_grains(s, 900);
+    s->run.directory = mkdtemp(folder) ? xstrdup(folder) : NULL;
+    bed_file_write(s);
+    char *const keys = xprintf("fill = file\nfile = %s/bed.nc\n", folder);
+    char *const text = xprintf(TWO("%s"), keys, keys);
+    struct sim *const again = sim_from(text);
+    const struct grains *const g = &s->grains, *const h = &again->grains;
+    int same = 0;
+    for (int id = 0; id < g->n && h->n == g->n; id++) {
+        const int i = grain_at(s, id), j = grain_at(again, id);
+        same += memcmp(&g->pos[i], &h->pos[j], sizeof(vec3)) == 0 &&
+                memcmp(&g->vel[i], &h->vel[j], sizeof(vec3)) == 0 &&
+                memcmp(&g->spin[i], &h->spin[j], sizeof(vec3)) == 0 &&
+                g->radius[i] == h->radius[j] && g->mass[i] == h->mass[j] &&
+                g->kind[i] == h->kind[j];
+    }
+    check(same == 180 && v3_norm(g->spin[0]) > 0.0,
+          "a saved bed: %d of 180 grains come back to the last bit", same);
+    char *const file = xprintf("%s/bed.nc", folder);
+    unlink(file);
+    rmdir(folder);
+    sim_free(s);
+    sim_free(again);
+    xfree(file);
+    xfree(text);
+    xfree(keys);
+}
+
 /* A ball of one material on a wall of another: the pair's restitution, and the mixed one. */
 static double bounce(const char *pair)
 {
@@ -115,6 +155,7 @@ int main(void)
               1.5 / sqrt(2.0) - 1.0, 1e-9);
     check_bed("point", "fill = point\nposition = 3 4 5 mm\n", 1, 0.0, 0.0);
     check_file();
+    check_saved();
     check_rel(bounce("[pair m-wall]\nrestitution = 0.66\n"), 0.66, 1e-3,
               "restitution of the pair");
     check_rel(bounce("[pair wall-m]\nrestitution = 0.66\n"), 0.66, 1e-3, "named the other way");
