@@ -190,6 +190,26 @@ void feasibility_fill(const struct sim *s, struct feasibility *f)
     }
 }
 
+/* What the scene asks for, species by species, and what its sources are to bring. */
+static void print_grains(FILE *out, const struct sim *s)
+{
+    for (int k = 0; k < s->grains.n_species; k++) {
+        const struct species *const sp = &s->grains.species[k];
+        double *const d = xalloc((size_t)sp->n_made + 1, sizeof *d), mass = 0.0;
+        for (int i = 0; i < sp->n_made; i++)
+            d[i] = sp->made[i];
+        for (int i = 0; i < s->grains.n; i++)
+            mass += s->grains.kind[i] == k ? s->grains.mass[i] : 0.0;
+        if (sp->n_made > 0)
+            fprintf(out, "%s: %d grains, %.4g kg, D10 %.4g, D50 %.4g, D90 %.4g m by mass\n",
+                    sp->name, sp->n_made, mass, sizes_measured(d, (size_t)sp->n_made, 0.1),
+                    sizes_measured(d, (size_t)sp->n_made, 0.5),
+                    sizes_measured(d, (size_t)sp->n_made, 0.9));
+        xfree(d);
+    }
+    insert_expect(out, s);
+}
+
 void feasibility_print(FILE *out, const struct sim *s, const struct feasibility *f)
 {
     double most = 0.0;
@@ -214,6 +234,7 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
     }
     if (worst >= 0)
         fprintf(out, "nearest limit: %s, at %.3g of it\n", f->line[worst].name, most);
+    print_grains(out, s);
     if (s->grains.n > 0) {
         const double *const size = s->domain.size;
         double volume = 0.0;

@@ -81,7 +81,9 @@ bool insert_changes(const struct sim *s); /* the number of grains may change */
 /* Between steps: removes what has left, brings what is due by the end of the step to come. Costs
  * nothing in a scene without sources and sinks. */
 void insert_step(struct sim *s);
-void insert_report(struct sim *s); /* asked and done, removed, sizes: to the summary */
+void insert_expect(FILE *out,
+                   const struct sim *s); /* what the sources will have been asked for */
+void insert_report(struct sim *s);       /* asked and done, removed, sizes: to the summary */
 
 /* A grain of this species as the last one, at rest in nothing; returns its index. */
 int insert_grain(struct sim *s, int species, vec3 pos, double diameter, vec3 vel);

@@ -204,6 +204,25 @@ void insert_free(struct sim *s)
     xfree(s->traffic.sink);
 }
 
+void insert_expect(FILE *out, const struct sim *s)
+{
+    for (int k = 0; k < s->traffic.n_sources; k++) {
+        const struct source *const o = &s->traffic.source[k];
+        const struct species *const sp = &s->grains.species[o->species];
+        const double mean = sp->density * PI / 6.0 * sp->sizes.mean_cube;
+        const double time = fmax(0.0, fmin(s->run.end, o->end) - o->start);
+        double n = o->rate > 0.0 ? o->rate * time : o->mass_flow * time / mean;
+        n = fmin(n, fmin(o->count_most, o->mass_most / mean));
+        fprintf(
+            out,
+            "insert %s: about %.0f grains of %s, %.4g kg, by t = %g s; D10 %.4g, D50 %.4g, D90 "
+            "%.4g m by mass\n",
+            o->name, floor(n), sp->name, n * mean, fmin(s->run.end, o->end),
+            sizes_by_mass(&sp->sizes, 0.1), sizes_by_mass(&sp->sizes, 0.5),
+            sizes_by_mass(&sp->sizes, 0.9));
+    }
+}
+
 /* What each species was made of, by mass: asked sizes are judged by these. */
 static void report_sizes(struct sim *s)
 {
