@@ -4,11 +4,12 @@
 #include "sim.h"
 
 extern const struct analysis_part analysis_coordination, analysis_contacts, analysis_regions,
-    analysis_energy, analysis_profile, analysis_meters, analysis_surfaces;
+    analysis_energy, analysis_profile, analysis_meters, analysis_surfaces, analysis_bonds;
 
 const struct analysis_part *const analysis_parts[] = {
-    &analysis_coordination, &analysis_contacts, &analysis_regions,  &analysis_energy,
-    &analysis_profile,      &analysis_meters,   &analysis_surfaces, NULL};
+    &analysis_coordination, &analysis_contacts, &analysis_regions,
+    &analysis_energy,       &analysis_profile,  &analysis_meters,
+    &analysis_surfaces,     &analysis_bonds,    NULL};
 
 void analysis_create(struct sim *s, struct scene *scene)
 {

@@ -27,7 +27,7 @@ struct analysis_part {
 };
 
 extern const struct analysis_part *const analysis_parts[]; /* ends with NULL */
-enum { ANALYSIS_PARTS = 8 };                               /* at most */
+enum { ANALYSIS_PARTS = 16 };                              /* at most */
 
 struct analysis {
     void *state[ANALYSIS_PARTS];

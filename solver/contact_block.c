@@ -181,9 +181,9 @@ static void starts(struct block *b, const unsigned char *live)
     for (int c = 0; c < t->n; c++)
         t->start[c] = 1.0;
     for (int c = 0; c < b->n; c++)
-        new |= (live[b->slot[c]] == 0) & (t->depth[c] > 0.0);
+        new |= (live[b->slot[c]] != LIVE_OVERLAP) & (t->depth[c] > 0.0);
     for (int c = 0; c < b->n && new; c++)
-        if (!live[b->slot[c]])
+        if (live[b->slot[c]] != LIVE_OVERLAP && t->depth[c] > 0.0)
             t->start[c] = first_part(t, c);
 }
 
@@ -336,7 +336,8 @@ static void keep(const struct sim *s, struct block *b, struct slots *l)
     const int rows = s->neighbours.rows;
     struct touch *const t = &b->t;
     for (int c = 0; c < b->n; c++)
-        l->live[b->slot[c]] = t->depth[c] > -reach;
+        l->live[b->slot[c]] =
+            (unsigned char)((t->depth[c] > -reach) + (t->depth[c] > (real)0.0));
     for (int k = 0; k < rows; k += 4)
         for (int c = 0; c < t->n; c += 8) {
             const real8 gap = -take8(&t->depth[c]);
@@ -397,10 +398,40 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
     for (int c = 0; c < b->n; c++) {
         const double depth = (double)b->t.depth[c], ri = (double)b->t.r_i[c];
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;
-        r->touching += depth > -reach;
+        r->touching += depth > 0.0;
         r->overlap = fmax(r->overlap, depth / fmin(ri, rj));
         if (s->contacts->watched)
             s->contacts->seen[b->walls][b->slot[c]] = force_of(b, c);
+    }
+}
+
+/* Notes the bonds that broke; put in order where they are read. */
+static void note_broken(struct sim *s, const struct block *b, const struct slots *l,
+                        double time)
+{
+    const struct grains *const g = &s->grains;
+    for (int c = 0; c < b->n; c++) {
+        if (b->t.broke[c] == 0)
+            continue;
+        const vec3 arm = v3((double)b->l.ix[c], (double)b->l.iy[c], (double)b->l.iz[c]);
+        const int i = b->c.i[c];
+        const struct broken bond = {.time = time,
+                                    .point = v3_add(g->pos[i], arm),
+                                    .i = g->id[i],
+                                    .j =
+                                        b->walls ? -1 - l->other[b->slot[c]] : g->id[b->c.j[c]],
+                                    .mode = b->t.broke[c]};
+#pragma omp critical(note_broken)
+        {
+            struct break_list *const list = &s->contacts->broken;
+            if (list->n == list->room) {
+                const int room = 2 * list->room + 64;
+                list->bond =
+                    xrealloc(list->bond, (size_t)list->room, (size_t)room, sizeof *list->bond);
+                list->room = room;
+            }
+            list->bond[list->n++] = bond;
+        }
     }
 }
 
@@ -408,7 +439,7 @@ static void work(struct sim *s, struct block *b, struct slots *l, const struct t
 {
     const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
     b->t.dt = s->run.dt;
-    b->t.time = s->t;
+    b->t.time = to->time;
     if (b->walls)
         meet_walls(s, b);
     else
@@ -422,6 +453,8 @@ static void work(struct sim *s, struct block *b, struct slots *l, const struct t
     if (bond_history > 0)
         memset(b->t.broke, 0, sizeof b->t.broke);
     apply_laws(b);
+    if (bond_history > 0)
+        note_broken(s, b, l, to->time);
     keep(s, b, l);
     if (needs & TOUCH_COUPLES)
         pack(b, true);

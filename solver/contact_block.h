@@ -33,7 +33,7 @@ struct block {
     struct candidates c;
     struct touch t;
     struct levers l;
-    real history[HISTORY_MAX][TOUCH];
+    _Alignas(64) real history[HISTORY_MAX][TOUCH];
     real inv_m[TOUCH];                    /* 1/kg, of both */
     real vx[TOUCH], vy[TOUCH], vz[TOUCH]; /* m/s, full step, i less j */
     real px[TOUCH], py[TOUCH], pz[TOUCH]; /* rad/s, spin of i */
@@ -48,7 +48,8 @@ struct target {
     struct sums *sums; /* of its grains and of its halo */
     double4 *wall;     /* N, per wall */
     struct report *report;
-    bool asked; /* energy, counts and overlaps are wanted */
+    double time; /* s, of the state at hand */
+    bool asked;  /* energy, counts and overlaps are wanted */
 };
 
 /* Works `count` slots of a list (those of pairs, or those of walls if `walls`) through shape and

@@ -52,6 +52,7 @@ void contact_free(struct sim *s)
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
+    xfree(s->contacts->broken.bond);
     xfree(s->contacts->seen[0]);
     xfree(s->contacts->seen[1]);
     xfree(s->contacts);
@@ -183,7 +184,7 @@ static void choose_walls(struct sim *s, int run, int first, int last)
     l->n_active[run] = n;
 }
 
-static void work_run(struct sim *s, int run, bool choose, bool asked)
+static void work_run(struct sim *s, int run, double time, bool choose, bool asked)
 {
     struct neighbours *const nb = &s->neighbours;
     struct contact_work *const w = s->contacts;
@@ -196,6 +197,7 @@ static void work_run(struct sim *s, int run, bool choose, bool asked)
                               .sums = &w->sums[neighbours_entry(nb, run, 0)],
                               .wall = &w->wall_force[(size_t)run * s->walls.n],
                               .report = r,
+                              .time = time,
                               .asked = asked};
     struct block b;
     if (choose) {
@@ -221,11 +223,11 @@ static void work_run(struct sim *s, int run, bool choose, bool asked)
         w->too_deep = 1;
 }
 
-void contact_loop(struct sim *s, bool choose, bool asked)
+void contact_loop(struct sim *s, double time, bool choose, bool asked)
 {
 #pragma omp for schedule(static)
     for (int run = 0; run < s->neighbours.runs; run++)
-        work_run(s, run, choose, asked);
+        work_run(s, run, time, choose, asked);
 }
 
 void contact_collect(struct sim *s, int steps)

@@ -9,6 +9,19 @@
 struct sim;
 struct scene;
 
+/* A bond that broke. */
+struct broken {
+    double time; /* s */
+    vec3 point;  /* m */
+    int i, j;    /* ids; j = -1 - index of a wall */
+    int mode;    /* BROKE_TENSION or BROKE_SHEAR */
+};
+
+struct break_list {
+    int n, room;
+    struct broken *bond;
+};
+
 struct contact_work {
     struct sums *sums;     /* per entry of a run: its grains, then its halo */
     size_t capacity;       /* of it */
@@ -19,8 +32,9 @@ struct contact_work {
     double4 *seen[2]; /* then, per slot of pairs, of walls: N, on the owner, at the last step
                               that was asked for */
     size_t seen_room[2];
-    int runs;     /* room of the three */
-    int too_deep; /* some contact of the last step is deeper than run.overlap_max */
+    struct break_list broken; /* bonds, since the start */
+    int runs;                 /* room of the three */
+    int too_deep;             /* some contact of the last step is deeper than run.overlap_max */
 };
 
 /* Initialises the laws (parameters from the scene) and the scratch of the loop. */
@@ -34,10 +48,11 @@ double contact_reach(void); /* m, gap up to which some law acts */
 void contact_prepare(struct sim *s);
 
 /* Forces of every contact at the bodies' places: sums per grain of each run and its halo,
- * which the motion gathers. `choose`: active slots are chosen anew. `asked`: the last step before the
+ * which the motion gathers. `time`: s, of the state
+ * at hand. `choose`: active slots are chosen anew. `asked`: the last step before the
  * ledger, which wants energies, counts and the largest overlap. Called by every thread of a
  * team (or by one alone); ends with all threads together. */
-void contact_loop(struct sim *s, bool choose, bool asked);
+void contact_loop(struct sim *s, double time, bool choose, bool asked);
 
 /* Force and torque on grain i by its contacts: those of its own run, then of the others in their
  * order. */

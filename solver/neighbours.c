@@ -191,7 +191,7 @@ static void carry_memory(struct slots *l, const struct slots *old, const int *or
         for (int o = old->begin[was]; o < old->begin[was + 1]; o++) {
             if (!old->live[o] || old->other[o] != other)
                 continue;
-            l->live[t] = 1;
+            l->live[t] = old->live[o];
             memcpy(&l->memory[(size_t)t * rows], &old->memory[(size_t)o * rows], size);
             break;
         }

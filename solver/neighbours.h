@@ -18,13 +18,14 @@
 struct sim;
 struct scene;
 
+enum { LIVE_REACH = 1, LIVE_OVERLAP = 2 }; /* within the range of a law; overlapping */
 enum { RUN = 128 }; /* grains per run, the unit of work of the contact loop */
 
 struct slots {
     size_t n, capacity;
     int *begin;          /* n grains + 1 */
     int *owner, *other;  /* per slot: grains; of a wall slot, `other` is an element of a wall */
-    unsigned char *live; /* per slot: it touched at the last step */
+    unsigned char *live; /* per slot: LIVE_... at the last step; 0: no contact */
     real *memory;        /* n x rows, of the laws */
     int *active;         /* per run, from begin[first grain] on: slots to look at */
     int *n_active;       /* per run */

@@ -111,7 +111,7 @@ void output_text_close(FILE *file, const char *path)
 static void write_rows(FILE *file, const struct table *t)
 {
     enum { ROWS_MOST = 100 }; /* longer ones are in run.nc only */
-    for (int r = 0; r < t->n_rows && t->n_rows <= ROWS_MOST; r++)
+    for (int r = 0; r < t->n_rows && t->n_rows <= ROWS_MOST && !t->bulky; r++)
         for (int c = 0; c < t->n_columns; c++) {
             const char *const unit = t->column[c].unit;
             const bool pure = strcmp(unit, "1") == 0;

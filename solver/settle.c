@@ -38,10 +38,11 @@ void settle(struct sim *s)
     bool rests = moving == 0;
     long steps = 0;
     progress_start(&progress, 0.0, 1.0, "settling");
+    s->t = -s->run.dt * (double)most;
     while (!rests && !(s->run.stop && *s->run.stop)) {
         step_grains(s, BETWEEN);
         steps += BETWEEN;
-        s->t = (double)steps * s->run.dt;
+        s->t = s->run.dt * (double)(steps - most); /* before 0 */
         left = agitation(s);
         /* at the top of a fall grains are slow too, but nothing touches */
         rests = left < s->run.settle_energy && s->neighbours.touching > moving;
@@ -56,7 +57,7 @@ void settle(struct sim *s)
                         (double)moving * BETWEEN);
     }
     progress_end(&progress);
-    summary_number(&s->summary, "settling_time", s->t, "s");
+    summary_number(&s->summary, "settling_time", s->run.dt * (double)steps, "s");
     summary_number(&s->summary, "settling_wall_time", wall_clock() - begin, "s");
     s->t = 0.0;
 }

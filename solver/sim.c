@@ -47,7 +47,7 @@ void sim_start(struct sim *s)
     contact_prepare(s);
 #pragma omp parallel
     {
-        contact_loop(s, true, true);
+        contact_loop(s, s->t, true, true);
         motion_forces(s);
     }
     contact_collect(s, 0);

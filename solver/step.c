@@ -14,9 +14,10 @@ static double lap(struct timers *t, enum timer which, double since)
 }
 
 /* Steps of one team of threads, until n are done or the pair list is stale (with the grains
- * drifted already); returns how many are done. The threads meet twice a step: after the drift,
+ * drifted already); returns how many are done. `before`: those
+ * of the same call that were done already. The threads meet twice a step: after the drift,
  * and before the forces on a grain are gathered. */
-static int team_steps(struct sim *s, int n, bool drifted)
+static int team_steps(struct sim *s, int n, int before, bool drifted)
 {
     struct timers *const t = &s->timers;
     double clock = wall_clock();
@@ -27,7 +28,8 @@ static int team_steps(struct sim *s, int n, bool drifted)
     struct ageing age = neighbours_ageing(s, drifted);
     while (drifted || neighbours_fresh(s, &age, done)) {
         drifted = false;
-        contact_loop(s, age.choose, done == n - 1); /* shapes -> contact (+ cohesion ...) */
+        const double time = s->t + s->run.dt * (before + done + 1);
+        contact_loop(s, time, age.choose, done == n - 1); /* shapes -> contact (+ ...) */
         clock = lap(t, TIME_CONTACTS, clock);
         if (s->contacts->too_deep)
             break;
@@ -51,7 +53,7 @@ void step_grains(struct sim *s, int n)
         int done = 0;
 #pragma omp parallel
         {
-            const int mine = team_steps(s, left, drifted);
+            const int mine = team_steps(s, left, n - left, drifted);
 #pragma omp master
             done = mine;
         }

@@ -63,6 +63,8 @@ static void print_cell(FILE *out, double x, int width)
 void table_print(FILE *out, const struct table *t)
 {
     enum { NAME, UNIT };
+    if (t->bulky)
+        return;
     int width[TABLE_COLUMNS];
     fprintf(out, "%s\n", t->title);
     for (int what = NAME; what <= UNIT; what++) {

@@ -79,6 +79,7 @@ struct table {
     const char *name, *title;
     int n_columns;
     struct column column[TABLE_COLUMNS];
+    bool bulky; /* rows go to run.nc only, neither to the terminal nor to the summary */
     int n_rows, capacity;
     double *row; /* n_rows x n_columns; freed by tables_free */
     struct figure figure;
