@@ -43,7 +43,9 @@ LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undef
 LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lm
 
 LIB := $(BUILD)/libsilt.a
-LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c)))
+WALL_KINDS := $(patsubst solver/walls/%.c,%,$(wildcard solver/walls/*.c))
+LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c))) \
+           $(WALL_KINDS:%=$(BUILD)/obj/solver/walls/%.o) $(BUILD)/obj/lists/walls.o
 BIN := $(BUILD)/bin/$(NAME)/silt
 ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))
 SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
@@ -64,6 +66,15 @@ $(BUILD)/lists/forces-%.c:
 	   echo 'const struct force *const forces[] = {'; \
 	   for f in $(filter-out none,$(subst +, ,$*)); do echo "    &force_$$f,"; done; \
 	   echo '    0};'; } > $@
+# The kinds of walls, all of them.
+$(BUILD)/lists/walls.c: FORCE
+	@mkdir -p $(@D)
+	@{ echo '#include "solver/walls/wall_kind.h"'; \
+	   for w in $(WALL_KINDS); do echo "extern const struct wall_kind wall_$$w;"; done; \
+	   echo 'const struct wall_kind *const wall_kinds[] = {'; \
+	   for w in $(WALL_KINDS); do echo "    &wall_$$w,"; done; \
+	   echo '    0};'; } > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/obj/lists/%.o: $(BUILD)/lists/%.c
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -I. -MMD -MP -c -o $@ $<

@@ -7,7 +7,8 @@
  * overrides for that pair of materials, either order) in contact_init and keeps a table of
  * n_materials^2 entries, indexed by touch.pair; it keeps no other state. What a contact
  * remembers lives in its rows of history: `history[k][c]` is number k of contact c, zero when
- * the contact is new, forgotten when it ends (depth below -contact_range). Called from parallel
+ * the contact is new, forgotten when it ends (depth below -contact_range). Of three or more numbers the
+ * first three are a vector in the plane of contact, which turns with a wall that turns. Called from parallel
  * loops. */
 #ifndef CONTACT_H
 #define CONTACT_H

@@ -13,13 +13,12 @@
 
 /* Takes in slots; lanes without a contact of their own repeat the last one: numbers that laws
  * can take. */
-static void take(struct block *b, const struct slots *l, bool walls, const int *slot, int count)
+static void take(struct block *b, const struct slots *l, const int *slot, int count)
 {
-    const int *const restrict owner = l->owner, *const restrict other =
-                                                    walls ? owner : l->other;
+    const int *const restrict owner = l->owner, *const restrict other = l->other;
     int n = count;
     b->n = count;
-    b->walls = walls;
+    b->walls = false;
     memcpy(b->slot, slot, (size_t)count * sizeof *slot);
     for (; n % TOUCH_LANES != 0; n++)
         b->slot[n] = slot[count - 1];
@@ -99,34 +98,34 @@ static void pair_up(const struct sim *s, struct block *b)
         b->c.wall[c] = NULL;
 }
 
-/* The same against walls, one by one. */
-static void meet_walls(const struct sim *s, struct block *b)
+/* Lanes without a wall contact of their own repeat the last one. */
+static void pad_walls(struct block *b)
+{
+    struct touch *const t = &b->t;
+    int n = b->n;
+    const int last = n - 1;
+    for (; n % TOUCH_LANES != 0; n++) {
+        real *const array[] = {b->c.dx, b->c.dy, b->c.dz, t->r_i, t->r_j, b->curve, b->inv_m,
+                               t->vx,   t->vy,   t->vz,   b->vx,  b->vy,  b->vz,    b->px,
+                               b->py,   b->pz,   b->qx,   b->qy,  b->qz};
+        for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
+            array[k][n] = array[k][last];
+        b->slot[n] = b->slot[last];
+        b->c.i[n] = b->c.i[last];
+        b->c.j[n] = b->c.j[last];
+        b->c.wall[n] = b->c.wall[last];
+        t->pair[n] = t->pair[last];
+    }
+    b->c.n = t->n = n;
+}
+
+/* Reduced mass and radius against walls, whose curvature is given. */
+static void reduce_walls(struct block *b)
 {
     struct touch *const t = &b->t;
     for (int c = 0; c < t->n; c++) {
-        const int i = b->c.i[c], element = s->neighbours.walls.other[b->slot[c]];
-        const struct body *const body = &s->bodies[i];
-        const struct wall *const wall = &s->walls.wall[element];
-        const vec3 d = wall_distance(s, element, s->grains.pos[i]);
-        const vec3 v = wall->velocity;
-        b->c.wall[c] = wall;
-        b->c.dx[c] = (real)d.x;
-        b->c.dy[c] = (real)d.y;
-        b->c.dz[c] = (real)d.z;
-        t->r_i[c] = body->spin[3];
-        t->r_j[c] = 0.0;
-        b->inv_m[c] = body->vel[3];
-        t->vx[c] = body->vel[0] - (real)v.x;
-        t->vy[c] = body->vel[1] - (real)v.y;
-        t->vz[c] = body->vel[2] - (real)v.z;
-        b->vx[c] = body->full[0] - (real)v.x;
-        b->vy[c] = body->full[1] - (real)v.y;
-        b->vz[c] = body->full[2] - (real)v.z;
-        b->px[c] = body->spin[0];
-        b->py[c] = body->spin[1];
-        b->pz[c] = body->spin[2];
-        b->qx[c] = b->qy[c] = b->qz[c] = 0.0;
-        t->pair[c] = (int)body->full[3] * s->grains.n_materials + wall->material;
+        t->m_eff[c] = 1.0 / b->inv_m[c];
+        t->r_eff[c] = t->r_i[c] / (1.0 + b->curve[c] * t->r_i[c]);
     }
 }
 
@@ -138,7 +137,7 @@ static void reduce(struct block *b)
         const real ri = t->r_i[c], rj = t->r_j[c], m = b->inv_m[c], sum = ri + rj;
         const real inverse = 1.0 / (sum * m);
         t->m_eff[c] = sum * inverse;
-        t->r_eff[c] = rj > 0.0 ? ri * rj * m * inverse : ri;
+        t->r_eff[c] = ri * rj * m * inverse;
     }
 }
 
@@ -371,11 +370,15 @@ static void add(const struct block *b, const int *restrict to, const struct targ
         }
 }
 
-static void add_walls(const struct block *b, const struct slots *l, const struct target *target)
+/* On walls, the torque is that about their pivot. */
+static void add_walls(const struct block *b, const struct target *target)
 {
     for (int c = 0; c < b->n; c++) {
-        target->sums[b->c.i[c] - target->first].both += wide(b->on[0][c]);
-        target->wall[l->other[b->slot[c]]] -= force_of(b, c);
+        const double8 on = wide(b->on[0][c]);
+        const vec3 turn = v3_cross(b->arm[c], v3(on[0], on[1], on[2]));
+        struct sums *const wall = &target->wall[b->wall[c]];
+        target->sums[b->c.i[c] - target->first].both += on;
+        wall->both -= on + (double8){0.0, 0.0, 0.0, 0.0, turn.x, turn.y, turn.z, 0.0};
     }
 }
 
@@ -435,16 +438,12 @@ static void note_broken(struct sim *s, const struct block *b, const struct slots
     }
 }
 
+/* From overlap to forces; everything that is asked of the bodies is in the block. */
 static void work(struct sim *s, struct block *b, struct slots *l, const struct target *to)
 {
     const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
     b->t.dt = s->run.dt;
     b->t.time = to->time;
-    if (b->walls)
-        meet_walls(s, b);
-    else
-        pair_up(s, b);
-    reduce(b);
     shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
     velocities(b);
     starts(b, l->live);
@@ -463,20 +462,32 @@ static void work(struct sim *s, struct block *b, struct slots *l, const struct t
     guard(b, (real)s->run.overlap_max, to->report);
     if (to->asked)
         report_all(s, b, to->report);
-    if (b->walls)
-        add_walls(b, l, to);
-    else
-        add(b, s->neighbours.to, to);
-    if (s->grains.n_frozen > 0 && !b->walls)
-        add_skeleton(&s->grains, b, to->report);
 }
 
-void block_work(struct sim *s, struct block *b, bool walls, const int *slot, int count,
+void block_work(struct sim *s, struct block *b, const int *slot, int count,
                 const struct target *to)
 {
-    struct slots *const l = walls ? &s->neighbours.walls : &s->neighbours.pairs;
+    struct slots *const l = &s->neighbours.pairs;
     for (int from = 0; from < count; from += TOUCH) {
-        take(b, l, walls, slot + from, count - from < TOUCH ? count - from : TOUCH);
+        take(b, l, slot + from, count - from < TOUCH ? count - from : TOUCH);
+        pair_up(s, b);
+        reduce(b);
         work(s, b, l, to);
+        add(b, s->neighbours.to, to);
+        if (s->grains.n_frozen > 0)
+            add_skeleton(&s->grains, b, to->report);
     }
+    b->n = 0;
+}
+
+void block_work_walls(struct sim *s, struct block *b, const struct target *to)
+{
+    if (b->n == 0)
+        return;
+    b->walls = true;
+    pad_walls(b);
+    reduce_walls(b);
+    work(s, b, &s->neighbours.walls, to);
+    add_walls(b, to);
+    b->n = 0;
 }

@@ -28,13 +28,16 @@ struct sums {     /* of the contacts of a grain in one run */
 
 struct block {
     int n;           /* contacts so far, TOUCH at most */
-    bool walls;      /* of a list of wall slots */
+    bool walls;      /* of wall slots */
     int slot[TOUCH]; /* of the list */
     struct candidates c;
     struct touch t;
     struct levers l;
     _Alignas(64) real history[HISTORY_MAX][TOUCH];
-    real inv_m[TOUCH];                    /* 1/kg, of both */
+    int wall[TOUCH];   /* of a wall contact: its wall */
+    vec3 arm[TOUCH];   /* of a wall contact: m, from the wall's pivot to x_i */
+    real curve[TOUCH]; /* of a wall contact: 1/m, 1/r_eff - 1/r_i */
+    real inv_m[TOUCH]; /* 1/kg, of both */
     real vx[TOUCH], vy[TOUCH], vz[TOUCH]; /* m/s, full step, i less j */
     real px[TOUCH], py[TOUCH], pz[TOUCH]; /* rad/s, spin of i */
     real qx[TOUCH], qy[TOUCH], qz[TOUCH]; /* rad/s, spin of j */
@@ -46,15 +49,18 @@ struct block {
 struct target {
     int first;         /* grain of the run */
     struct sums *sums; /* of its grains and of its halo */
-    double4 *wall;     /* N, per wall */
+    struct sums *wall; /* on each wall, with the torque about its pivot */
     struct report *report;
     double time; /* s, of the state at hand */
     bool asked;  /* energy, counts and overlaps are wanted */
 };
 
-/* Works `count` slots of a list (those of pairs, or those of walls if `walls`) through shape and
- * laws, in blocks. */
-void block_work(struct sim *s, struct block *b, bool walls, const int *slot, int count,
+/* Works `count` pair slots through shape and laws, in blocks. */
+void block_work(struct sim *s, struct block *b, const int *slot, int count,
                 const struct target *to);
+
+/* The same for the wall contacts that were entered one by one (contact_walls.c), up to TOUCH of
+ * them; empties the block. */
+void block_work_walls(struct sim *s, struct block *b, const struct target *to);
 
 #endif

@@ -14,6 +14,7 @@
 #include "../contact/contact.h"
 #include "../contact/lubrication/lubrication.h"
 #include "../contact/rolling/rolling.h"
+#include "contact_walls.h"
 #include "sim.h"
 
 int contact_rows(void)
@@ -73,14 +74,7 @@ static void flush_sums(struct sim *s)
         w->report[run].skeleton_sum = (double4){0.0, 0.0, 0.0, 0.0};
     }
     s->walls.skeleton_sum = v3_add(s->walls.skeleton_sum, narrow(skeleton));
-    for (int k = 0; k < s->walls.n; k++) {
-        double4 sum = {0.0, 0.0, 0.0, 0.0};
-        for (int run = 0; run < w->runs; run++) {
-            sum += w->wall_sum[(size_t)run * s->walls.n + k];
-            w->wall_sum[(size_t)run * s->walls.n + k] = (double4){0.0, 0.0, 0.0, 0.0};
-        }
-        s->walls.wall[k].sum = v3_add(s->walls.wall[k].sum, narrow(sum));
-    }
+    walls_flush(s);
 }
 
 /* Room for the forces of single contacts. */
@@ -165,25 +159,6 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
     l->n_active[run] = n;
 }
 
-static void choose_walls(struct sim *s, int run, int first, int last)
-{
-    struct neighbours *const nb = &s->neighbours;
-    struct slots *const l = &nb->walls;
-    const double margin = nb->reach + nb->inner;
-    int *const active = &l->active[l->begin[first]];
-    int n = 0;
-    for (int slot = l->begin[first]; slot < l->begin[last]; slot++) {
-        const int i = l->owner[slot];
-        const vec3 d = wall_distance(s, l->other[slot], s->grains.pos[i]);
-        const double cut = s->grains.radius[i] + margin;
-        if (v3_dot(d, d) < cut * cut)
-            active[n++] = slot;
-        else if (l->live[slot])
-            end_contact(nb, l, slot);
-    }
-    l->n_active[run] = n;
-}
-
 static void work_run(struct sim *s, int run, double time, bool choose, bool asked)
 {
     struct neighbours *const nb = &s->neighbours;
@@ -202,7 +177,7 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     struct block b;
     if (choose) {
         choose_pairs(s, run, first, last);
-        choose_walls(s, run, first, last);
+        walls_choose(s, run, first, last);
     }
     memset(to.sums, 0, (size_t)(RUN + halo) * sizeof *to.sums);
     if (walls || choose)
@@ -211,13 +186,12 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     r->energy = r->overlap = 0.0;
     r->too_deep = false;
     r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
-    block_work(s, &b, false, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run],
-               &to);
-    block_work(s, &b, true, &nb->walls.active[nb->walls.begin[first]], nb->walls.n_active[run],
-               &to);
+    block_work(s, &b, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run], &to);
+    if (walls)
+        walls_enter(s, run, &b, &to);
     r->skeleton_sum += r->skeleton;
     for (int k = 0; walls && k < s->walls.n; k++)
-        w->wall_sum[(size_t)run * s->walls.n + k] += to.wall[k];
+        w->wall_sum[(size_t)run * s->walls.n + k].both += to.wall[k].both;
     if (r->too_deep)
 #pragma omp atomic write
         w->too_deep = 1;
@@ -247,13 +221,7 @@ void contact_collect(struct sim *s, int steps)
     }
     walls_impulse(&s->walls.skeleton_force, &s->walls.skeleton_sum, &s->walls.skeleton_impulse,
                   narrow(skeleton), steps, dt);
-    for (int k = 0; k < s->walls.n; k++) {
-        struct wall *const wall = &s->walls.wall[k];
-        double4 force = {0.0, 0.0, 0.0, 0.0};
-        for (int run = 0; run < s->neighbours.runs; run++)
-            force += w->wall_force[(size_t)run * s->walls.n + k];
-        walls_impulse(&wall->force, &wall->sum, &wall->impulse, narrow(force), steps, dt);
-    }
+    walls_collect(s, steps);
 }
 
 static void die_overlap(const struct sim *s, int i, int j, int element, double overlap)
@@ -261,7 +229,7 @@ static void die_overlap(const struct sim *s, int i, int j, int element, double o
     const struct grains *const g = &s->grains;
     char other[64];
     if (j < 0)
-        snprintf(other, sizeof other, "wall %s", s->walls.wall[element].name);
+        snprintf(other, sizeof other, "wall %s", s->walls.wall[s->walls.wall_of[element]].name);
     else
         snprintf(other, sizeof other, "grain %d", g->id[j]);
     die(EXIT_UNSTABLE,
@@ -293,7 +261,7 @@ void contact_guard(const struct sim *s)
     }
     for (size_t t = 0; t < walls->n; t++) {
         const int a = walls->owner[t];
-        const vec3 d = wall_distance(s, walls->other[t], g->pos[a]);
+        const vec3 d = wall_see(s, walls->other[t], g->pos[a]).view.away;
         const double overlap = (g->radius[a] - v3_norm(d)) / g->radius[a];
         if (overlap > most) {
             most = overlap;

@@ -23,12 +23,12 @@ struct break_list {
 };
 
 struct contact_work {
-    struct sums *sums;     /* per entry of a run: its grains, then its halo */
-    size_t capacity;       /* of it */
-    struct report *report; /* per run */
-    double4 *wall_force;   /* per run and wall: N, on the wall, at the step at hand */
-    double4 *wall_sum;     /* the same, over the steps since it was last collected */
-    bool watched;          /* someone looks at single contacts (contact_view.h) */
+    struct sums *sums;       /* per entry of a run: its grains, then its halo */
+    size_t capacity;         /* of it */
+    struct report *report;   /* per run */
+    struct sums *wall_force; /* per run and wall: on it, with the torque about its pivot, now */
+    struct sums *wall_sum;   /* the same, over the steps since it was last collected */
+    bool watched;            /* someone looks at single contacts (contact_view.h) */
     double4 *seen[2]; /* then, per slot of pairs, of walls: N, on the owner, at the last step
                               that was asked for */
     size_t seen_room[2];

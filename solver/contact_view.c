@@ -20,8 +20,8 @@ static void candidate(const struct sim *s, const struct slots *l, bool walls, in
     c->i[k] = i;
     if (walls) {
         c->j[k] = i;
-        c->wall[k] = &s->walls.wall[other];
-        d = wall_distance(s, other, g->pos[i]);
+        c->wall[k] = &s->walls.wall[s->walls.wall_of[other]];
+        d = wall_see(s, other, g->pos[i]).view.away;
     } else {
         c->j[k] = other;
         c->wall[k] = NULL;
@@ -67,7 +67,7 @@ static void look(const struct sim *s, const struct slots *l, bool walls, const i
         const vec3 lever = v3((double)arm.ix[k], (double)arm.iy[k], (double)arm.iz[k]);
         v->i = c.i[k];
         v->j = walls ? -1 : c.j[k];
-        v->wall = walls ? l->other[slot[k]] : -1;
+        v->wall = walls ? s->walls.wall_of[l->other[slot[k]]] : -1;
         v->normal = v3((double)t.nx[k], (double)t.ny[k], (double)t.nz[k]);
         v->depth = (double)t.depth[k];
         v->point = v3_add(s->grains.pos[v->i], lever);

@@ -74,13 +74,7 @@ int insert_grain(struct sim *s, int species, vec3 pos, double diameter, vec3 vel
 /* Whether a grain would touch no wall: asked of the walls for the place behind the last grain. */
 static bool clear_of_walls(struct sim *s, vec3 x, double diameter)
 {
-    struct grains *const g = &s->grains;
-    int near[WALLS_NEAR];
-    grains_reserve(s, g->n + 1);
-    g->pos[g->n] = x;
-    g->radius[g->n] = 0.5 * diameter;
-    g->inv_mass[g->n] = 1.0; /* it would move */
-    return walls_near(s, g->n, 0.0, near) == 0;
+    return walls_gap(s, x, 0.5 * diameter, diameter, NULL) >= 0.0;
 }
 
 /* A free place for a grain; false if none was found. */

@@ -39,14 +39,6 @@ static vec3 wall_impulses(const struct sim *s)
     return sum;
 }
 
-static double wall_work(const struct sim *s)
-{
-    double work = 0.0;
-    for (int k = 0; k < s->walls.n; k++)
-        work -= v3_dot(s->walls.wall[k].impulse, s->walls.wall[k].velocity);
-    return work;
-}
-
 void ledger_gain(struct sim *s, int i, double mass)
 {
     const struct grains *const g = &s->grains;
@@ -60,9 +52,7 @@ void ledger_start(struct sim *s)
 {
     struct ledger *const l = &s->ledger;
     *l = (struct ledger){0};
-    for (int k = 0; k < s->walls.n; k++)
-        s->walls.wall[k].impulse = v3(0.0, 0.0, 0.0);
-    s->walls.skeleton_impulse = v3(0.0, 0.0, 0.0);
+    walls_open(s);
     sum_grains(s);
     l->momentum_start = l->momentum;
     l->mass_start = l->mass;
@@ -103,7 +93,7 @@ static void close_energy(struct sim *s)
                     g->load[i], domain_minimum_image(
                                     &s->domain, v3_sub(g->pos[i], s->coupling.pos_load[i])));
     const double before = l->dissipated;
-    l->dissipated = l->energy_start + l->work_fluid + wall_work(s) -
+    l->dissipated = l->energy_start + l->work_fluid + walls_work(s) -
                     (l->kinetic + l->potential + l->elastic);
     l->dissipated_least = fmin(l->dissipated_least, l->dissipated - before);
 }
@@ -138,6 +128,7 @@ static bool line(struct sim *s, const char *key, double error, double most)
 
 void ledger_report(struct sim *s)
 {
+    walls_report(s);
     const struct ledger *const l = &s->ledger;
     bool closes = true;
     if (s->grains.n > s->grains.n_frozen) {

@@ -80,7 +80,7 @@ static void choose_skins(struct sim *s)
 {
     const struct grains *const g = &s->grains;
     const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
-    const double way = 2.0 * s->neighbours.way;
+    const double way = 2.0 * fmax(s->neighbours.way, s->walls.speed * s->run.dt);
     s->neighbours.skin = fmin(fmax(SKIN_STEPS * way, SKIN_LEAST * mean), SKIN_MOST * mean);
     const double inner = fmin(INNER_STEPS * way, INNER_MOST * mean);
     s->neighbours.inner = inner > 2.0 * way ? inner : 0.0;
@@ -118,12 +118,7 @@ static int find_walls(const struct search *c, const struct sim *s, double margin
                       int **out, int *room, int n)
 {
     (void)c;
-    if (n + WALLS_NEAR > *room) {
-        const int more = 2 * n + 1024 + WALLS_NEAR;
-        *out = xrealloc(*out, (size_t)*room, (size_t)more, sizeof **out);
-        *room = more;
-    }
-    return n + walls_near(s, i, margin, *out + n);
+    return walls_near(s, i, margin, out, room, n);
 }
 
 static void die_full(const struct sim *s)

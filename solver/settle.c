@@ -37,6 +37,7 @@ void settle(struct sim *s)
     double left = agitation(s), most_left = left;
     bool rests = moving == 0;
     long steps = 0;
+    s->walls.still = true;
     progress_start(&progress, 0.0, 1.0, "settling");
     s->t = -s->run.dt * (double)most;
     while (!rests && !(s->run.stop && *s->run.stop)) {
@@ -60,4 +61,5 @@ void settle(struct sim *s)
     summary_number(&s->summary, "settling_time", s->run.dt * (double)steps, "s");
     summary_number(&s->summary, "settling_wall_time", wall_clock() - begin, "s");
     s->t = 0.0;
+    s->walls.still = false;
 }

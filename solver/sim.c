@@ -20,8 +20,9 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     domain_read(&s->domain, scene);
     run_read(s, scene);
     flow_read(&s->flow, scene);
-    grains_create(s, scene);
     walls_create(s, scene);
+    grains_create(s, scene);
+    walls_materials(s, scene);
     insert_create(s, scene);
     contact_create(s, scene);
     fluid_create(s, scene);
@@ -31,6 +32,7 @@ void sim_create(struct sim *s, struct scene *scene, struct feasibility *f)
     reference_create(s, scene);
     if (scene_errors(scene) == 0) {
         neighbours_check(s, scene);
+        walls_check(s, scene);
         feasibility_fill(s, f);
         feasibility_enforce(s, scene, f);
     }
@@ -64,6 +66,7 @@ void sim_free(struct sim *s)
     neighbours_free(s);
     insert_free(s);
     grains_free(s);
+    walls_free(s);
     flow_free(&s->flow);
     domain_free(&s->domain);
     tables_free(&s->tables);

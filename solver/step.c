@@ -22,8 +22,11 @@ static int team_steps(struct sim *s, int n, int before, bool drifted)
     struct timers *const t = &s->timers;
     double clock = wall_clock();
     int done = 0;
-    if (!drifted)
+    if (!drifted) {
+#pragma omp master
+        walls_drift(s, 0);
         motion_start(s, 0);
+    }
     clock = lap(t, TIME_MOTION, clock);
     struct ageing age = neighbours_ageing(s, drifted);
     while (drifted || neighbours_fresh(s, &age, done)) {
@@ -34,6 +37,12 @@ static int team_steps(struct sim *s, int n, int before, bool drifted)
         if (s->contacts->too_deep)
             break;
         done++;
+#pragma omp master
+        {
+            walls_feel(s);
+            if (done < n)
+                walls_drift(s, done);
+        }
         motion_turn(s, done == n, done); /* gather, kick; kick and drift of the next step */
         clock = lap(t, TIME_MOTION, clock);
         if (done == n)
@@ -49,6 +58,7 @@ void step_grains(struct sim *s, int n)
 {
     bool drifted = false;
     motion_sense_loads(s);
+    s->walls.ahead = 0;
     for (int left = n; left > 0;) {
         int done = 0;
 #pragma omp parallel

@@ -1,5 +1,4 @@
-/* walls.c - planes that bound the grains. Every side of the box that is not periodic is one, so
- * is every [wall NAME]: a point and a normal towards the grains. */
+/* walls.c - the walls of a scene, their elements, and what of them is near. */
 #include "walls.h"
 
 #include <stdio.h>
@@ -7,16 +6,138 @@
 #include "sim.h"
 
 const struct key wall_keys[] = {
-    {"wall", "point", KEY_VECTOR, "m", "(-inf, inf)", NULL, "a point of the plane"},
-    {"wall", "normal", KEY_VECTOR, "1", "(-inf, inf)", NULL, "its normal, towards the grains"},
-    {"wall", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s",
-     "velocity of the wall in its own plane"},
+    {"wall", "kind", KEY_TEXT, "", "", "plane", "what surface: a file of solver/walls/"},
     {"wall", "material", KEY_TEXT, "", "", "",
      "its material; default: \"wall\" if there is one, or that of the first species"},
+    {"wall", "point", KEY_VECTOR, "m", "(-inf, inf)", NULL,
+     "a point of a plane; middle of a disc; foot of the axis of a cylinder or cone"},
+    {"wall", "normal", KEY_VECTOR, "1", "(-inf, inf)", NULL,
+     "of a plane, towards the grains; of a disc"},
+    {"wall", "axis", KEY_VECTOR, "1", "(-inf, inf)", NULL, "direction of a cylinder or cone"},
+    {"wall", "radius", KEY_REAL, "m", "(0, inf)", NULL, "of a disc, cylinder or cone"},
+    {"wall", "length", KEY_REAL, "m", "endless | (0, inf)", "endless",
+     "of a cylinder or cone, from `point` on"},
+    {"wall", "caps", KEY_CHOICE, "", "none | foot | end | both", "none",
+     "flat ends of a cylinder or cone"},
+    {"wall", "side", KEY_CHOICE, "", "both | in | out", "both",
+     "where grains may be, of a box, cylinder or cone; both are felt all the same"},
     {0},
 };
 
-static int material_index(struct sim *s, const char *name)
+static const struct wall_kind *find_kind(struct scene *scene, const char *name)
+{
+    const char *const asked = scene_text(scene, "wall", name, "kind");
+    char *all = xstrdup("");
+    for (int k = 0; wall_kinds[k]; k++) {
+        if (strcmp(wall_kinds[k]->name, asked) == 0) {
+            xfree(all);
+            return wall_kinds[k];
+        }
+        char *const longer = xprintf("%s%s%s", all, k ? " | " : "", wall_kinds[k]->name);
+        xfree(all);
+        all = longer;
+    }
+    scene_error(scene, "wall", name, "kind", "must be one of %s", all);
+    xfree(all);
+    return NULL;
+}
+
+static double half_way(double low, double high)
+{
+    return isfinite(low) && isfinite(high) ? 0.5 * (low + high) : 0.0;
+}
+
+static struct wall *add_wall(struct sim *s, const char *name, const struct wall_kind *kind,
+                             void *shape)
+{
+    struct wall *const w = &s->walls.wall[s->walls.n++];
+    snprintf(w->name, sizeof w->name, "%.31s", name);
+    w->kind = kind;
+    w->shape = shape;
+    w->elements = kind->elements(shape);
+    kind->bounds(shape, &w->low, &w->high);
+    w->middle = v3(half_way(w->low.x, w->high.x), half_way(w->low.y, w->high.y),
+                   half_way(w->low.z, w->high.z));
+    wall_pose_at(w, 0.0, 0.0);
+    return w;
+}
+
+static void add_sides(struct sim *s)
+{
+    for (int side = 0; side < 6; side++) {
+        const int axis = side / 2;
+        s->walls.periodic = s->walls.periodic || s->domain.periodic[axis];
+        if (s->domain.periodic[axis] || s->domain.side[side].open)
+            continue;
+        struct wall_flat *const p = xalloc(1, sizeof *p);
+        const double at = side % 2 ? s->domain.size[axis] : 0.0;
+        const double to = side % 2 ? -1.0 : 1.0;
+        p->point = v3(axis == 0 ? at : 0.0, axis == 1 ? at : 0.0, axis == 2 ? at : 0.0);
+        p->normal = v3(axis == 0 ? to : 0.0, axis == 1 ? to : 0.0, axis == 2 ? to : 0.0);
+        struct wall *const w = add_wall(s, side_name[side], &wall_side, p);
+        w->motion.surface = s->domain.side[side].velocity;
+    }
+}
+
+static void add_named(struct sim *s, struct scene *scene, const char *name)
+{
+    const struct wall_kind *const kind = find_kind(scene, name);
+    if (!kind)
+        return;
+    if (strlen(name) >= WALL_NAME)
+        scene_error(scene, "wall", name, NULL, "the name must be shorter than %d letters",
+                    WALL_NAME);
+    scene_declare(scene, kind->keys);
+    struct wall *const w = add_wall(s, name, kind, kind->read(scene, name, &s->domain));
+    wall_motion_read(w, scene, s);
+    servo_read(w, scene);
+    s->walls.moving = s->walls.moving || w->motion.moves;
+}
+
+static void number_elements(struct walls *all)
+{
+    size_t n = 0;
+    all->first = xalloc((size_t)all->n + 1, sizeof *all->first);
+    for (int k = 0; k < all->n; k++)
+        n += (size_t)all->wall[k].elements;
+    all->wall_of = xalloc(n + 1, sizeof *all->wall_of);
+    int e = 0;
+    for (int k = 0; k < all->n; k++) {
+        all->first[k] = e;
+        for (int i = 0; i < all->wall[k].elements; i++)
+            all->wall_of[e++] = k;
+    }
+    all->first[all->n] = e;
+}
+
+void walls_create(struct sim *s, struct scene *scene)
+{
+    const char *const *names;
+    scene_declare(scene, wall_keys);
+    scene_declare(scene, wall_motion_keys);
+    const int n = scene_names(scene, "wall", &names);
+    s->walls.wall = xalloc((size_t)n + 6, sizeof *s->walls.wall);
+    add_sides(s);
+    for (int i = 0; i < n; i++)
+        add_named(s, scene, names[i]);
+    number_elements(&s->walls);
+}
+
+void walls_free(struct sim *s)
+{
+    for (int k = 0; k < s->walls.n; k++) {
+        s->walls.wall[k].kind->free(s->walls.wall[k].shape);
+        wall_motion_free(&s->walls.wall[k]);
+    }
+    for (int i = 0; i < s->walls.n_texts; i++)
+        xfree(s->walls.text[i]);
+    xfree(s->walls.text);
+    xfree(s->walls.wall);
+    xfree(s->walls.wall_of);
+    xfree(s->walls.first);
+}
+
+static int material_index(const struct sim *s, const char *name)
 {
     for (int m = 0; m < s->grains.n_materials; m++)
         if (strcmp(s->grains.materials[m].name, name) == 0)
@@ -24,85 +145,183 @@ static int material_index(struct sim *s, const char *name)
     return -1;
 }
 
-static int default_material(struct sim *s)
+void walls_materials(struct sim *s, struct scene *scene)
 {
-    const int m = material_index(s, "wall");
-    return m >= 0 ? m : 0;
-}
-
-static void add_sides(struct sim *s)
-{
-    for (int side = 0; side < 6; side++) {
-        const int axis = side / 2;
-        if (s->domain.periodic[axis] || s->domain.side[side].open)
-            continue;
-        struct wall *const w = &s->walls.wall[s->walls.n++];
-        *w = (struct wall){.material = default_material(s),
-                           .velocity = s->domain.side[side].velocity};
-        snprintf(w->name, sizeof w->name, "%s", side_name[side]);
-        const double at = side % 2 ? s->domain.size[axis] : 0.0;
-        const double to = side % 2 ? -1.0 : 1.0;
-        w->point = v3(axis == 0 ? at : 0.0, axis == 1 ? at : 0.0, axis == 2 ? at : 0.0);
-        w->normal = v3(axis == 0 ? to : 0.0, axis == 1 ? to : 0.0, axis == 2 ? to : 0.0);
+    const int wall = material_index(s, "wall");
+    for (int k = 0; k < s->walls.n; k++) {
+        struct wall *const w = &s->walls.wall[k];
+        w->material = wall >= 0 ? wall : 0;
+        const char *const asked =
+            w->kind == &wall_side ? "" : scene_text(scene, "wall", w->name, "material");
+        const int m = material_index(s, asked);
+        if (asked[0] != '\0' && m < 0)
+            scene_error(scene, "wall", w->name, "material", "there is no [material %s]", asked);
+        else if (asked[0] != '\0')
+            w->material = m;
     }
 }
 
-static void add_named(struct sim *s, struct scene *scene, const char *name)
+/* The place of a point in the frame of the wall, by the nearest image of the element. */
+static inline vec3 into_frame(const struct sim *s, const struct wall *w, int local, vec3 x)
 {
-    struct wall w = {.material = default_material(s)};
-    snprintf(w.name, sizeof w.name, "%s", name);
-    w.point = scene_vector(scene, "wall", name, "point");
-    w.velocity = scene_vector(scene, "wall", name, "velocity");
-    const vec3 normal = scene_vector(scene, "wall", name, "normal");
-    const double length = v3_norm(normal);
-    if (length > 0.0)
-        w.normal = v3_scale(1.0 / length, normal);
-    else if (scene_given(scene, "wall", name, "normal"))
-        scene_error(scene, "wall", name, "normal", "must not be zero");
-    if (fabs(v3_dot(w.normal, w.velocity)) > 1e-12 * v3_norm(w.velocity))
-        scene_error(scene, "wall", name, "velocity", "must lie in the plane of the wall");
-    const char *material = scene_text(scene, "wall", name, "material");
-    if (material[0] != '\0') {
-        w.material = material_index(s, material);
-        if (w.material < 0) {
-            scene_error(scene, "wall", name, "material", "there is no [material %s]", material);
-            w.material = 0;
-        }
+    const struct wall_pose *const p = &w->pose;
+    if (p->moved)
+        x = v3_sub(x, p->shift);
+    if (s->walls.periodic && !p->turned) {
+        const vec3 m = w->kind->middle ? w->kind->middle(w->shape, local) : w->middle;
+        x = v3_add(m, domain_minimum_image(&s->domain, v3_sub(x, m)));
+    } else if (s->walls.periodic) {
+        const vec3 m = v3_sub(w->kind->middle ? w->kind->middle(w->shape, local) : w->middle,
+                              w->motion.pivot);
+        const vec3 at = v3_add(w->motion.pivot, pose_turn(p, m));
+        x = v3_add(at, domain_minimum_image(&s->domain, v3_sub(x, at)));
     }
-    if (s->walls.n == WALLS_MAX)
-        scene_error(scene, "wall", name, NULL, "more than %d walls", WALLS_MAX);
-    else
-        s->walls.wall[s->walls.n++] = w;
+    if (p->turned)
+        x = v3_add(w->motion.pivot, pose_back(p, v3_sub(x, w->motion.pivot)));
+    return x;
 }
 
-void walls_create(struct sim *s, struct scene *scene)
+struct wall_seen wall_see(const struct sim *s, int element, vec3 x)
 {
-    scene_declare(scene, wall_keys);
-    add_sides(s);
-    const char *const *names;
-    const int n = scene_names(scene, "wall", &names);
-    for (int i = 0; i < n; i++)
-        add_named(s, scene, names[i]);
+    const int k = s->walls.wall_of[element], local = element - s->walls.first[k];
+    const struct wall *const w = &s->walls.wall[k];
+    const vec3 in = into_frame(s, w, local, x);
+    struct wall_seen seen = {.view = w->kind->view(w->shape, local, in),
+                             .arm = v3_sub(in, w->motion.pivot)};
+    if (w->pose.turned) {
+        seen.view.away = pose_turn(&w->pose, seen.view.away);
+        seen.arm = pose_turn(&w->pose, seen.arm);
+    }
+    return seen;
 }
 
-vec3 wall_distance(const struct sim *s, int element, vec3 x)
+static void near_of_wall(const struct wall *w, vec3 x, double reach, struct found *out)
 {
-    const struct wall *const w = &s->walls.wall[element];
-    return v3_scale(v3_dot(v3_sub(x, w->point), w->normal), w->normal);
+    if (w->kind->near) {
+        w->kind->near(w->shape, x, reach, out);
+        return;
+    }
+    for (int e = 0; e < w->elements; e++) {
+        const vec3 d = w->kind->view(w->shape, e, x).away;
+        if (v3_dot(d, d) < reach * reach)
+            found_add(out, e);
+    }
 }
 
-int walls_near(const struct sim *s, int i, double margin, int *out)
+/* An element met by two images of a point counts once. */
+static void drop_repeated(struct found *f, int from, int old)
 {
-    const struct grains *const g = &s->grains;
-    int n = 0;
-    if (g->inv_mass[i] == 0.0)
-        return 0;
+    int n = old;
+    for (int i = old; i < f->n; i++) {
+        bool known = false;
+        for (int k = from; k < old && !known; k++)
+            known = f->x[k] == f->x[i];
+        if (!known)
+            f->x[n++] = f->x[i];
+    }
+    f->n = n;
+}
+
+/* All images of a point that may be near the wall: those beside it along periodic directions. */
+static void near_of_images(const struct sim *s, const struct wall *w, vec3 x, double reach,
+                           struct found *out)
+{
+    const int from = out->n;
+    int most[3];
+    for (int a = 0; a < 3; a++)
+        most[a] = s->domain.periodic[a] ? 1 : 0;
+    const vec3 home =
+        domain_minimum_image(&s->domain, v3_sub(v3_sub(x, w->pose.shift), w->middle));
+    for (int i = -most[0]; i <= most[0]; i++)
+        for (int j = -most[1]; j <= most[1]; j++)
+            for (int k = -most[2]; k <= most[2]; k++) {
+                const int old = out->n;
+                vec3 at = v3_add(
+                    v3_add(w->middle, home),
+                    v3(i * s->domain.size[0], j * s->domain.size[1], k * s->domain.size[2]));
+                if (w->pose.turned)
+                    at = v3_add(w->motion.pivot,
+                                pose_back(&w->pose, v3_sub(at, w->motion.pivot)));
+                near_of_wall(w, at, reach, out);
+                drop_repeated(out, from, old);
+            }
+}
+
+void walls_around(const struct sim *s, vec3 x, double reach, struct found *out)
+{
     for (int k = 0; k < s->walls.n; k++) {
         const struct wall *const w = &s->walls.wall[k];
-        if (v3_dot(v3_sub(g->pos[i], w->point), w->normal) < g->radius[i] + margin)
-            out[n++] = k;
+        const int from = out->n;
+        if (s->walls.periodic)
+            near_of_images(s, w, x, reach, out);
+        else
+            near_of_wall(w, into_frame(s, w, 0, x), reach, out);
+        for (int i = from; i < out->n; i++)
+            out->x[i] += s->walls.first[k];
     }
-    return n;
+}
+
+int walls_near(const struct sim *s, int i, double margin, int **out, int *room, int n)
+{
+    const struct grains *const g = &s->grains;
+    struct found f = {.x = *out, .n = n, .room = *room};
+    if (g->inv_mass[i] == 0.0)
+        return n;
+    walls_around(s, g->pos[i], g->radius[i] + margin, &f);
+    *out = f.x;
+    *room = f.room;
+    return f.n;
+}
+
+double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *which)
+{
+    struct found f = {0};
+    double gap = most;
+    walls_around(s, x, radius + most, &f);
+    for (int i = 0; i < f.n; i++) {
+        const double room = v3_norm(wall_see(s, f.x[i], x).view.away) - radius;
+        if (room < gap) {
+            gap = room;
+            if (which)
+                *which = s->walls.wall_of[f.x[i]];
+        }
+    }
+    for (int k = 0; k < s->walls.n; k++) {
+        const struct wall *const w = &s->walls.wall[k];
+        if (!w->kind->behind || !w->kind->behind(w->shape, into_frame(s, w, 0, x)))
+            continue;
+        gap = -(double)INFINITY;
+        if (which)
+            *which = k;
+    }
+    xfree(f.x);
+    return gap;
+}
+
+void walls_check(struct sim *s, struct scene *scene)
+{
+    const struct grains *const g = &s->grains;
+    for (int i = 0; i < g->n; i++) {
+        const vec3 x = g->pos[i];
+        int k = 0;
+        if (g->inv_mass[i] == 0.0)
+            continue;
+        const double gap = walls_gap(s, x, g->radius[i], 0.0, &k);
+        if (gap >= -s->run.overlap_max * g->radius[i])
+            continue;
+        const char *const name = s->walls.wall[k].name;
+        if (isinf(gap))
+            scene_error(scene, "wall", name, NULL,
+                        "a grain starts behind it, at %.6g %.6g %.6g m: is it turned the wrong "
+                        "way, or do from and to of the grains reach too far?",
+                        x.x, x.y, x.z);
+        else
+            scene_error(scene, "wall", name, NULL,
+                        "a grain starts inside it, at %.6g %.6g %.6g m, by %.3g of its radius "
+                        "(run.overlap_max = %g)",
+                        x.x, x.y, x.z, -gap / g->radius[i], s->run.overlap_max);
+        return;
+    }
 }
 
 void walls_impulse(vec3 *force, vec3 *sum, vec3 *impulse, vec3 now, int steps, double dt)

@@ -290,6 +290,13 @@ static int print_keys(const char *program)
     keys_print(stdout, "", sizes_keys);
     keys_print(stdout, "\ngrains that come and go", insert_keys);
     keys_print(stdout, "\nwalls", wall_keys);
+    keys_print(stdout, "", wall_motion_keys);
+    for (int k = 0; wall_kinds[k]; k++) {
+        char *const title =
+            xprintf("\nwall, kind = %s: %s", wall_kinds[k]->name, wall_kinds[k]->summary);
+        keys_print(stdout, title, wall_kinds[k]->keys);
+        xfree(title);
+    }
     for (int k = 0; analysis_parts[k]; k++)
         keys_print(stdout, k == 0 ? "\nwhat is measured" : "", analysis_parts[k]->keys);
     keys_print(stdout, "\nwith a fluid", flow_keys);

@@ -63,6 +63,9 @@ int main(int argc, char **argv)
     check_table("sizes", sizes_keys);
     check_table("insert", insert_keys);
     check_table("walls", wall_keys);
+    check_table("motion of walls", wall_motion_keys);
+    for (int k = 0; wall_kinds[k]; k++)
+        check_table(wall_kinds[k]->name, wall_kinds[k]->keys);
     check_table("run", run_keys);
     check_table("flow", flow_keys);
     check_table("coupling", coupling_keys);

@@ -27,10 +27,9 @@ static long brute(const struct sim *s)
             const bool move = g->inv_mass[i] + g->inv_mass[j] > 0.0;
             touching += move && v3_norm(r) < g->radius[i] + g->radius[j];
         }
-        for (int w = 0; w < s->walls.n; w++)
-            touching +=
-                g->inv_mass[i] > 0.0 && v3_dot(v3_sub(g->pos[i], s->walls.wall[w].point),
-                                               s->walls.wall[w].normal) < g->radius[i];
+        for (int e = 0; e < s->walls.n; e++) /* planes: an element each */
+            touching += g->inv_mass[i] > 0.0 &&
+                        v3_norm(wall_see(s, e, g->pos[i]).view.away) < g->radius[i];
     }
     return touching;
 }

@@ -1,0 +1,286 @@
+/* wall_shapes.c - surfaces that the kinds of walls are made of: rectangles, strips of revolution
+ * (disc, tube, frustum), tubes with caps. Nearest points in closed form. */
+#include "walls/wall_tube.h"
+
+#define PI 3.14159265358979323846
+
+enum { SIDE_BOTH, SIDE_IN, SIDE_OUT };
+enum { CAPS_NONE, CAPS_FOOT, CAPS_END, CAPS_BOTH };
+
+void found_add(struct found *f, int x)
+{
+    if (f->n == f->room) {
+        const int more = 2 * f->room + 256;
+        f->x = xrealloc(f->x, (size_t)f->room, (size_t)more, sizeof *f->x);
+        f->room = more;
+    }
+    f->x[f->n++] = x;
+}
+
+vec3 wall_unit_vector(struct scene *scene, const char *name, const char *key)
+{
+    const vec3 v = scene_vector(scene, "wall", name, key);
+    const double length = v3_norm(v);
+    if (length > 0.0)
+        return v3_scale(1.0 / length, v);
+    if (scene_given(scene, "wall", name, key))
+        scene_error(scene, "wall", name, key, "must not be zero");
+    return v3(0.0, 0.0, 1.0);
+}
+
+vec3 wall_across(vec3 axis)
+{
+    const vec3 other = fabs(axis.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
+    const vec3 v = v3_cross(axis, other);
+    return v3_scale(1.0 / v3_norm(v), v);
+}
+
+int wall_single(const void *shape)
+{
+    (void)shape;
+    return 1;
+}
+
+static double height(const struct wall_flat *p, vec3 x)
+{
+    return v3_dot(v3_sub(x, p->point), p->normal);
+}
+
+struct wall_view wall_flat_view(const void *shape, int element, vec3 x)
+{
+    const struct wall_flat *const p = shape;
+    (void)element;
+    return (struct wall_view){.away = v3_scale(height(p, x), p->normal)};
+}
+
+/* What is behind it is near too: it is to be found. */
+void wall_flat_near(const void *shape, vec3 x, double reach, struct found *out)
+{
+    if (height(shape, x) < reach)
+        found_add(out, 0);
+}
+
+bool wall_flat_behind(const void *shape, vec3 x)
+{
+    return height(shape, x) < 0.0;
+}
+
+void wall_flat_bounds(const void *shape, vec3 *low, vec3 *high)
+{
+    const struct wall_flat *const p = shape;
+    const double n[3] = {p->normal.x, p->normal.y, p->normal.z};
+    const double at[3] = {p->point.x, p->point.y, p->point.z};
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; a++) {
+        const bool flat = fabs(n[a]) == 1.0;
+        lo[a] = flat ? at[a] : -(double)INFINITY;
+        hi[a] = flat ? at[a] : (double)INFINITY;
+    }
+    *low = v3(lo[0], lo[1], lo[2]);
+    *high = v3(hi[0], hi[1], hi[2]);
+}
+
+/* Turned about its normal it stays. */
+double wall_flat_sweep(const void *shape, vec3 point, vec3 axis)
+{
+    const struct wall_flat *const p = shape;
+    (void)point;
+    return fabs(v3_dot(axis, p->normal)) > 1.0 - 1e-12 ? 0.0 : (double)INFINITY;
+}
+
+const struct wall_kind wall_side = {.name = "side",
+                                    .summary = "a side of the box",
+                                    .free = xfree,
+                                    .elements = wall_single,
+                                    .view = wall_flat_view,
+                                    .near = wall_flat_near,
+                                    .behind = wall_flat_behind,
+                                    .bounds = wall_flat_bounds,
+                                    .sweep = wall_flat_sweep};
+
+struct wall_view wall_rectangle_view(vec3 origin, vec3 e1, vec3 e2, vec3 x)
+{
+    const vec3 rel = v3_sub(x, origin);
+    const double u = v3_dot(rel, e1) / v3_dot(e1, e1), v = v3_dot(rel, e2) / v3_dot(e2, e2);
+    const double a = fmin(fmax(u, 0.0), 1.0), b = fmin(fmax(v, 0.0), 1.0);
+    const int outside = (a != u) + (b != v);
+    struct wall_view view = {.part = outside == 0   ? WALL_FACE
+                                     : outside == 1 ? WALL_EDGE
+                                                    : WALL_VERTEX};
+    if (outside == 0) { /* along the normal, without the rounding of a difference of points */
+        vec3 n = v3_cross(e1, e2);
+        n = v3_scale(1.0 / v3_norm(n), n);
+        view.away = v3_scale(v3_dot(rel, n), n);
+    } else {
+        view.away = v3_axpy(v3_axpy(rel, -a, e1), -b, e2);
+    }
+    return view;
+}
+
+/* In the half-plane of x the strip is a segment. */
+struct wall_view wall_strip_view(const struct wall_strip *s, vec3 x)
+{
+    const vec3 rel = v3_sub(x, s->foot);
+    const double h = v3_dot(rel, s->axis);
+    const vec3 radial = v3_axpy(rel, -h, s->axis);
+    const double r = v3_norm(radial);
+    const vec3 out = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    const double dh = s->h1 - s->h0, dr = s->r1 - s->r0;
+    const double t = ((h - s->h0) * dh + (r - s->r0) * dr) / (dh * dh + dr * dr);
+    const double at = fmin(fmax(t, 0.0), 1.0), up = h - (s->h0 + at * dh);
+    const double radius = s->r0 + at * dr, beyond = r - radius;
+    struct wall_view view = {.away = v3_axpy(v3_scale(up, s->axis), beyond, out)};
+    const double distance = sqrt(up * up + beyond * beyond);
+    if (at != t && radius > 0.0)
+        view.part = WALL_EDGE;
+    else if (at != t && dh != 0.0)
+        view.part = WALL_VERTEX; /* the tip of a cone; the middle of a disc is none */
+    else if (radius > 0.0 && distance > 0.0)
+        view.curvature = beyond / distance / radius;
+    return view;
+}
+
+enum { AROUND = 48 };
+
+static vec3 ring(const struct wall_strip *s, double h, double r, int k)
+{
+    const vec3 e = wall_across(s->axis), f = v3_cross(s->axis, e);
+    const double angle = 2.0 * PI * (k % AROUND) / AROUND;
+    const vec3 centre = v3_axpy(s->foot, h, s->axis);
+    return v3_axpy(v3_axpy(centre, r * cos(angle), e), r * sin(angle), f);
+}
+
+void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c)
+{
+    for (int k = 0; k < AROUND; k++) {
+        const vec3 a = ring(s, s->h0, s->r0, k), b = ring(s, s->h0, s->r0, k + 1);
+        const vec3 p = ring(s, s->h1, s->r1, k), q = ring(s, s->h1, s->r1, k + 1);
+        if (s->r0 > 0.0)
+            c->triangle(c, a, b, q);
+        if (s->r1 > 0.0)
+            c->triangle(c, a, q, p);
+    }
+}
+
+void wall_strip_bounds(const struct wall_strip *s, vec3 *low, vec3 *high)
+{
+    const double foot[3] = {s->foot.x, s->foot.y, s->foot.z};
+    const double axis[3] = {s->axis.x, s->axis.y, s->axis.z};
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; a++) {
+        const double wide = sqrt(fmax(0.0, 1.0 - axis[a] * axis[a]));
+        const double c0 = foot[a] + (axis[a] != 0.0 ? s->h0 * axis[a] : 0.0);
+        const double c1 = foot[a] + (axis[a] != 0.0 ? s->h1 * axis[a] : 0.0);
+        lo[a] = fmin(c0 - s->r0 * wide, c1 - s->r1 * wide);
+        hi[a] = fmax(c0 + s->r0 * wide, c1 + s->r1 * wide);
+    }
+    *low = v3(lo[0], lo[1], lo[2]);
+    *high = v3(hi[0], hi[1], hi[2]);
+}
+
+double wall_strip_sweep(const struct wall_strip *s, vec3 point, vec3 axis)
+{
+    const double length = fmax(s->r0, s->r1);
+    const vec3 off = v3_cross(v3_sub(s->foot, point), axis);
+    if (v3_norm(v3_cross(axis, s->axis)) < 1e-9 && v3_norm(off) < 1e-9 * length)
+        return 0.0;
+    return (double)INFINITY; /* no better than the bounds */
+}
+
+/* Element 0 is the tube, the others are its caps. */
+struct tube {
+    struct wall_strip strip[3];
+    int n, side;
+    bool endless;
+};
+
+/* An endless tube along a periodic direction must fit it, or leave it alone. */
+static void check_periods(struct scene *scene, const char *name, const struct domain *d,
+                          vec3 axis)
+{
+    const double along[3] = {axis.x, axis.y, axis.z};
+    for (int a = 0; a < 3; a++)
+        if (d->periodic[a] && along[a] != 0.0 && fabs(along[a]) < 1.0)
+            scene_error(scene, "wall", name, "axis", "an endless cylinder askew in periodic %c",
+                        'x' + a);
+}
+
+void *wall_tube_read(struct scene *scene, const char *name, const struct domain *d, double foot,
+                     double end, bool endless)
+{
+    struct tube *const t = xalloc(1, sizeof *t);
+    struct wall_strip *const s = &t->strip[0];
+    s->foot = scene_vector(scene, "wall", name, "point");
+    s->axis = wall_unit_vector(scene, name, "axis");
+    s->r0 = foot;
+    s->r1 = end;
+    s->h1 = endless ? (double)INFINITY : scene_real(scene, "wall", name, "length");
+    s->h0 = endless ? -(double)INFINITY : 0.0;
+    t->n = 1;
+    t->endless = endless;
+    t->side = scene_choice(scene, "wall", name, "side");
+    const int caps = scene_choice(scene, "wall", name, "caps");
+    if (endless && caps != CAPS_NONE)
+        scene_error(scene, "wall", name, "caps",
+                    "an endless cylinder has none: give its length");
+    if (endless)
+        check_periods(scene, name, d, s->axis);
+    else if (!(s->h1 > 0.0))
+        s->h1 = 1.0; /* an error is on the list */
+    for (int k = CAPS_FOOT; k <= CAPS_END; k++)
+        if ((caps == k || caps == CAPS_BOTH) && (k == CAPS_FOOT ? foot : end) > 0.0)
+            t->strip[t->n++] = (struct wall_strip){.foot = s->foot,
+                                                   .axis = s->axis,
+                                                   .h0 = k == CAPS_FOOT ? 0.0 : s->h1,
+                                                   .h1 = k == CAPS_FOOT ? 0.0 : s->h1,
+                                                   .r1 = k == CAPS_FOOT ? foot : end};
+    return t;
+}
+
+int wall_tube_elements(const void *shape)
+{
+    return ((const struct tube *)shape)->n;
+}
+
+struct wall_view wall_tube_view(const void *shape, int element, vec3 x)
+{
+    const struct tube *const t = shape;
+    const struct wall_strip *const s = &t->strip[element];
+    if (!t->endless)
+        return wall_strip_view(s, x);
+    const vec3 rel = v3_sub(x, s->foot);
+    const vec3 radial = v3_axpy(rel, -v3_dot(rel, s->axis), s->axis);
+    const double r = v3_norm(radial), beyond = r - s->r0;
+    const vec3 out = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    return (struct wall_view){.away = v3_scale(beyond, out),
+                              .curvature = (beyond > 0.0 ? 1.0 : -1.0) / s->r0};
+}
+
+bool wall_tube_behind(const void *shape, vec3 x)
+{
+    const struct tube *const t = shape;
+    const struct wall_strip *const s = &t->strip[0];
+    const vec3 rel = v3_sub(x, s->foot);
+    const double h = v3_dot(rel, s->axis), r = v3_norm(v3_axpy(rel, -h, s->axis));
+    const double part = t->endless ? 0.0 : (h - s->h0) / (s->h1 - s->h0);
+    const bool along = part >= 0.0 && part <= 1.0;
+    const bool inside = along && r < s->r0 + part * (s->r1 - s->r0);
+    return t->side == SIDE_IN ? along && !inside : t->side == SIDE_OUT && inside;
+}
+
+void wall_tube_bounds(const void *shape, vec3 *low, vec3 *high)
+{
+    wall_strip_bounds(shape, low, high);
+}
+
+double wall_tube_sweep(const void *shape, vec3 point, vec3 axis)
+{
+    return wall_strip_sweep(shape, point, axis);
+}
+
+void wall_tube_draw(const void *shape, struct wall_canvas *c)
+{
+    const struct tube *const t = shape;
+    for (int k = 0; k < t->n && !t->endless; k++)
+        wall_strip_draw(&t->strip[k], c);
+}

@@ -1,0 +1,100 @@
+/* solver/walls/wall_kind.h - contract: what surface is a wall?
+ *
+ * A scene may hold as many walls of as many kinds as it wants: [wall NAME] kind = disc. To add a
+ * kind: a new file solver/walls/NAME.c with one `const struct wall_kind wall_NAME`; nothing else
+ * is edited (the table of kinds is made from the folder).
+ *
+ * A kind is a surface at rest, made of elements that are each convex enough for their nearest
+ * point to be the only one at which a sphere can touch them (a triangle, a tube). Where it is and
+ * how it moves is not its affair: it is always asked in its own frame (wall_motion.h). Which of the
+ * elements that a grain touches count is decided for all kinds alike (contact_walls.h).
+ *
+ * Called from parallel loops, except read and free. */
+#ifndef WALL_KIND_H
+#define WALL_KIND_H
+
+#include <stdbool.h>
+#include "../domain.h"
+
+/* Numbers that grow as they are found. */
+struct found {
+    int *x;
+    int n, room;
+};
+
+void found_add(struct found *f, int x);
+
+enum wall_part { WALL_FACE, WALL_EDGE, WALL_VERTEX };
+
+/* An element as seen from a point. */
+struct wall_view {
+    vec3 away;           /* m, from the nearest point of the element to the point */
+    double curvature;    /* 1/m, mean over the two directions; > 0: bulges towards the point,
+                            < 0: hollow; 0: flat, and of edges by convention */
+    enum wall_part part; /* on which the nearest point lies */
+};
+
+/* Takes the triangles of a picture, m. */
+struct wall_canvas {
+    void (*triangle)(struct wall_canvas *c, vec3 a, vec3 b, vec3 p);
+};
+
+struct wall_kind {
+    const char *name, *summary;
+    const struct key *keys; /* of section "wall", besides those of walls.c */
+    /* Reads what it needs; what is wrong goes on the scene's list. Never NULL. */
+    void *(*read)(struct scene *scene, const char *name, const struct domain *d);
+    void (*free)(void *shape);
+    int (*elements)(const void *shape);
+    struct wall_view (*view)(const void *shape, int element, vec3 x);
+    /* Adds the elements whose distance from x is less than reach, in a fixed order. NULL: there
+     * are few, all are looked at. */
+    void (*near)(const void *shape, vec3 x, double reach, struct found *out);
+    /* x is where no grain may be: behind a plane, outside of a drum. NULL: both sides are good. */
+    bool (*behind)(const void *shape, vec3 x);
+    /* The box around it; INFINITY where it has no end. */
+    void (*bounds)(const void *shape, vec3 *low, vec3 *high);
+    /* The middle of an element, for its nearest periodic image. NULL: that of the bounds. */
+    vec3 (*middle)(const void *shape, int element);
+    /* Largest distance of its points from the axis of a turn; 0 where the turn maps it onto
+     * itself. NULL: from its bounds. */
+    double (*sweep)(const void *shape, vec3 point, vec3 axis);
+    void (*draw)(const void *shape, struct wall_canvas *c); /* NULL: nothing */
+};
+
+extern const struct wall_kind *const wall_kinds[]; /* the last entry is NULL */
+
+extern const struct wall_kind wall_side; /* a side of the box: a plane; not to be named */
+
+/* Unit vector along a key that must not be zero. */
+vec3 wall_unit_vector(struct scene *scene, const char *name, const char *key);
+
+/* A sphere touching a ring, a segment, a disc: helpers of the kinds. */
+vec3 wall_across(vec3 axis); /* some unit vector at right angles to the axis */
+
+/* A plane without end; grains are on the side of its normal. */
+struct wall_flat {
+    vec3 point, normal; /* m; unit */
+};
+int wall_single(const void *shape); /* one element */
+struct wall_view wall_flat_view(const void *flat, int element, vec3 x);
+void wall_flat_near(const void *flat, vec3 x, double reach, struct found *out);
+bool wall_flat_behind(const void *flat, vec3 x);
+void wall_flat_bounds(const void *flat, vec3 *low, vec3 *high);
+double wall_flat_sweep(const void *flat, vec3 point, vec3 axis);
+
+/* Nearest point of the rectangle origin + u e1 + v e2, 0 <= u, v <= 1 (e1, e2 at right angles). */
+struct wall_view wall_rectangle_view(vec3 origin, vec3 e1, vec3 e2, vec3 x);
+
+/* Of the strip of revolution through (h0, r0) and (h1, r1) in heights along the axis from `foot`
+ * and radii: a disc, tube or frustum. */
+struct wall_strip {
+    vec3 foot, axis;
+    double h0, r0, h1, r1;
+};
+struct wall_view wall_strip_view(const struct wall_strip *s, vec3 x);
+void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c);
+void wall_strip_bounds(const struct wall_strip *s, vec3 *low, vec3 *high);
+double wall_strip_sweep(const struct wall_strip *s, vec3 point, vec3 axis);
+
+#endif

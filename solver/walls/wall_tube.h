@@ -1,0 +1,22 @@
+/* solver/walls/wall_tube.h - what cylinder and cone share: a strip of revolution with caps. */
+#ifndef WALL_TUBE_H
+#define WALL_TUBE_H
+
+#include "wall_kind.h"
+
+/* Reads point, axis, length, caps and side. */
+void *wall_tube_read(struct scene *scene, const char *name, const struct domain *d, double foot,
+                     double end, bool endless);
+int wall_tube_elements(const void *shape);
+struct wall_view wall_tube_view(const void *shape, int element, vec3 x);
+bool wall_tube_behind(const void *shape, vec3 x);
+void wall_tube_bounds(const void *shape, vec3 *low, vec3 *high);
+double wall_tube_sweep(const void *shape, vec3 point, vec3 axis);
+void wall_tube_draw(const void *shape, struct wall_canvas *c);
+
+#define WALL_TUBE_REST                                                                         \
+    .free = xfree, .elements = wall_tube_elements, .view = wall_tube_view,                     \
+    .behind = wall_tube_behind, .bounds = wall_tube_bounds, .sweep = wall_tube_sweep,          \
+    .draw = wall_tube_draw
+
+#endif
