@@ -17,7 +17,8 @@ usage() {
 ./run.sh plot DIR        the pictures of a run again
 ./run.sh modules [SLOT]  every answer of every slot (of one): equation, source, range, keys
 ./run.sh keys            every key of a scene: unit, range, default, meaning
-./run.sh install         install the Debian packages that are missing
+./run.sh install [PACKAGE ...]
+                         install the Debian packages that are missing, and these
 ./run.sh help            this text
 Exit codes: 0 good; 2 bad scene or usage; 3 unstable or unphysical state; 4 could not write;
 130, 143 stopped by a signal, outputs complete up to there.
@@ -46,6 +47,7 @@ missing_packages() {
 install_packages() {
     local packages sudo=()
     mapfile -t packages < <(missing_packages)
+    packages+=("$@")
     [ ${#packages[@]} -eq 0 ] && return
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo > /dev/null || ! sudo -n true 2> /dev/null; then
@@ -183,7 +185,8 @@ case ${1:-} in
         usage
         ;;
     install)
-        install_packages
+        shift
+        install_packages "$@"
         ;;
     modules | keys)
         [ $# -eq 1 ] || { [ "$1" = modules ] && [ $# -eq 2 ]; } ||

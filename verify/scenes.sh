@@ -101,7 +101,7 @@ for j in 1 2 3 7 16; do
     if command -v ncdump > /dev/null; then
         ncdump -p 17 "$tmp/j$j/run.nc" | sed -n '/^data:/,$p' > "$tmp/j$j.txt"
     else
-        grep -v -E '^(time_|wall|threads|grain_steps_per|settling_wall)' "$tmp/j$j/summary.txt" > "$tmp/j$j.txt"
+        grep -v -E '^(date|time_|wall|threads|grain_steps_per|settling_wall)' "$tmp/j$j/summary.txt" > "$tmp/j$j.txt"
     fi
     [ -s "$tmp/j$j.txt" ] && cmp -s "$tmp/j1.txt" "$tmp/j$j.txt"
     verdict $? "the same bits on 1 and $j threads"
