@@ -1,6 +1,6 @@
 /* bench/dem_tile.c - a bed of silt for other programs, and for a larger bed of silt:
- *   dem_tile FORMAT BED LX LY NX NY      (m; the period of the bed, and how often it is laid side by
- * side in x and y), to standard output. FORMAT: text (x y z diameter, m), atoms (the data file of
+ *   dem_tile FORMAT BED LX LY NX NY [SWELL]   (m; the period of the bed, how often it is laid side by
+ * side in x and y, and a factor on its diameters), to standard output. FORMAT: text (x y z diameter, m), atoms (the data file of
  * LAMMPS and LIGGGHTS: atom_style sphere and granular; density 2500 kg/m3). */
 #include "../solver/bed_file.h"
 
@@ -18,17 +18,20 @@ static double wrapped(double x, double period)
 
 int main(int argc, char **argv)
 {
-    if (argc != 7 || (strcmp(argv[1], "text") != 0 && strcmp(argv[1], "atoms") != 0)) {
-        fprintf(stderr, "usage: dem_tile text|atoms BED LX LY NX NY\n");
+    if ((argc != 7 && argc != 8) ||
+        (strcmp(argv[1], "text") != 0 && strcmp(argv[1], "atoms") != 0)) {
+        fprintf(stderr, "usage: dem_tile text|atoms BED LX LY NX NY [SWELL]\n");
         return EXIT_FAILURE;
     }
     const bool atoms = argv[1][0] == 'a';
     const double lx = strtod(argv[3], NULL), ly = strtod(argv[4], NULL);
     const int nx = atoi(argv[5]), ny = atoi(argv[6]);
+    const double swell = argc == 8 ? strtod(argv[7], NULL) : 1.0;
     struct bed_file bed;
     char *const why = bed_file_read(&bed, argv[2], "");
-    if (why != NULL || nx < 1 || ny < 1 || !(lx > 0.0) || !(ly > 0.0)) {
-        fprintf(stderr, "dem_tile: %s: %s\n", argv[2], why != NULL ? why : "not tiled like this");
+    if (why != NULL || nx < 1 || ny < 1 || !(lx > 0.0) || !(ly > 0.0) || !(swell > 0.0)) {
+        fprintf(stderr, "dem_tile: %s: %s\n", argv[2],
+                why != NULL ? why : "not tiled like this");
         return EXIT_FAILURE;
     }
     double top = 0.0;
@@ -43,7 +46,8 @@ int main(int argc, char **argv)
         for (int y = 0; y < ny; y++)
             for (int i = 0; i < bed.n; i++) {
                 const double px = wrapped(bed.pos[i].x, lx) + x * lx;
-                const double py = wrapped(bed.pos[i].y, ly) + y * ly, d = bed.diameter[i];
+                const double py = wrapped(bed.pos[i].y, ly) + y * ly;
+                const double d = swell * bed.diameter[i];
                 id++;
                 if (atoms)
                     printf("%d 1 %.9g 2500 %.10g %.10g %.10g\n", id, d, px, py, bed.pos[i].z);

@@ -53,3 +53,50 @@ for kind in double float; do
     done
 done
 echo "ns of a grain and step; growth over 10,000 grains; speed-up over one thread"
+
+# Sizes: a bed each, settled once; then the same steps on it, with the time of a contact in each.
+echo
+case_of() { # RATIO: least, largest diameter in mm, the steps of the grains in us, steps timed
+    case $1 in
+        1) echo 24.9 25.1 100 600 ;;
+        10) echo 10 100 40 600 ;;
+        50) echo 4 200 20 200 ;;
+    esac
+}
+ratios="1 10 50"
+for r in $ratios; do
+    read -r least most dt _ <<< "$(case_of "$r")"
+    if ! cmp -s bench/sizes.ini "$beds/sizes.ini" || [ ! -e "$beds/sizes_$r.nc" ]; then
+        echo "(a bed with diameters $r:1 settles first)" >&2
+        "$plain" bench/sizes.ini "grains g.sizes=uniform" "grains g.diameter_min=$least mm" \
+            "grains g.diameter_max=$most mm" "run.dt=$dt us" -o "$tmp/settled" > /dev/null 2>&1
+        cp "$tmp/settled/bed.nc" "$beds/sizes_$r.nc"
+    fi
+    $tile text "$beds/sizes_$r.nc" 0.5 0.5 1 1 > "$tmp/sizes_$r.text"
+done
+cp bench/sizes.ini "$beds/sizes.ini"
+
+for ((round = 0; round < rounds; round++)); do
+    for r in $ratios; do
+        read -r least most dt steps <<< "$(case_of "$r")"
+        "$plain" bench/sizes.ini "grains g.fill=file" "grains g.file=$tmp/sizes_$r.text" \
+            "grains g.diameter=$least mm" "grains g.porosity=auto" output.bed=none "run.dt=$dt us" \
+            "run.end=$((dt * steps)) us" -j 1 -o "$tmp/run" > /dev/null 2>&1
+        made=$(summary g_made)
+        per=$(summary contacts_per_grain)
+        rate=$(summary grain_steps_per_second)
+        echo "made $r $made" >> "$tmp/figures"
+        echo "per $r $per" >> "$tmp/figures"
+        echo "builds $r $(summary list_builds)" >> "$tmp/figures"
+        echo "ns $r $(ratio 1e9 "$(awk -v a="$rate" -v b="$per" 'BEGIN { print a * b }')" %.2f)" >> "$tmp/figures"
+    done
+done
+printf '%-10s %8s %20s %12s %15s %14s\n' diameters grains "contacts a grain" "ns a step" "ns a contact" "over 1:1"
+for r in $ratios; do
+    ns=$(median "$tmp/figures" "ns $r")
+    per=$(median "$tmp/figures" "per $r")
+    printf '%-10s %8s %20s %12s %15s %14s\n' "$r:1" "$(median "$tmp/figures" "made $r")" "$per" \
+        "$(awk -v a="$ns" -v b="$per" 'BEGIN { printf "%.1f", a * b }')" "$ns" \
+        "$(ratio "$ns" "$(median "$tmp/figures" "ns 1")" %.2f)"
+done
+echo "one thread; all of a step (search and motion too) over the grains that touch; uniform by mass"
