@@ -56,32 +56,38 @@ echo "ns of a grain and step; growth over 10,000 grains; speed-up over one threa
 
 # Sizes: a bed each, settled once; then the same steps on it, with the time of a contact in each.
 echo
-case_of() { # RATIO: least, largest diameter in mm, the steps of the grains in us, steps timed
+case_of() { # RATIO: least, largest diameter in mm, the steps of the grains in us, steps timed, MPa
     case $1 in
-        1) echo 24.9 25.1 100 600 ;;
-        10) echo 10 100 40 600 ;;
-        50) echo 4 200 20 200 ;;
+        1) echo 24.9 25.1 100 600 5 ;;
+        10) echo 10 100 40 600 5 ;;
+        50) echo 4 200 15 200 20 ;;
     esac
 }
 ratios="1 10 50"
+cmp -s bench/sizes.ini "$beds/sizes.ini" || rm -f "$beds"/sizes_*.nc
+cp bench/sizes.ini "$beds/sizes.ini"
+[ "$quick" != quick ] || [ -e "$beds/sizes_50.nc" ] || ratios="1 10" # half a minute to settle
 for r in $ratios; do
-    read -r least most dt _ <<< "$(case_of "$r")"
-    if ! cmp -s bench/sizes.ini "$beds/sizes.ini" || [ ! -e "$beds/sizes_$r.nc" ]; then
+    read -r least most dt _ young <<< "$(case_of "$r")"
+    if [ ! -e "$beds/sizes_$r.nc" ]; then
         echo "(a bed with diameters $r:1 settles first)" >&2
         "$plain" bench/sizes.ini "grains g.sizes=uniform" "grains g.diameter_min=$least mm" \
-            "grains g.diameter_max=$most mm" "run.dt=$dt us" -o "$tmp/settled" > /dev/null 2>&1
+            "grains g.diameter_max=$most mm" "run.dt=$dt us" \
+            "material g.young=$young MPa" -o "$tmp/settled" > "$tmp/log" 2>&1 ||
+            { tail -n 3 "$tmp/log" >&2 && continue; }
         cp "$tmp/settled/bed.nc" "$beds/sizes_$r.nc"
     fi
     $tile text "$beds/sizes_$r.nc" 0.5 0.5 1 1 > "$tmp/sizes_$r.text"
 done
-cp bench/sizes.ini "$beds/sizes.ini"
 
 for ((round = 0; round < rounds; round++)); do
     for r in $ratios; do
-        read -r least most dt steps <<< "$(case_of "$r")"
+        read -r least most dt steps young <<< "$(case_of "$r")"
         "$plain" bench/sizes.ini "grains g.fill=file" "grains g.file=$tmp/sizes_$r.text" \
             "grains g.diameter=$least mm" "grains g.porosity=auto" output.bed=none "run.dt=$dt us" \
-            "run.end=$((dt * steps)) us" -j 1 -o "$tmp/run" > /dev/null 2>&1
+            "material g.young=$young MPa" \
+            "run.end=$((dt * steps)) us" -j 1 -o "$tmp/run" > "$tmp/log" 2>&1 ||
+            { tail -n 3 "$tmp/log" >&2 && continue; }
         made=$(summary g_made)
         per=$(summary contacts_per_grain)
         rate=$(summary grain_steps_per_second)
