@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bench/bench.sh - `make bench`: how fast this machine runs the contact loop and the direct pressure
+# bench/bench.sh [quick] - `make bench`: how fast this machine runs the contact loop and the direct pressure
 # solve, beside what its memory gives in the same minute. Levels, not exact figures: compare ratios.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -35,3 +35,5 @@ make -s build/release/bench/fluid
 for j in 1 $(nproc); do
     OMP_NUM_THREADS=$j GOMP_SPINCOUNT=1000 build/release/bench/fluid
 done
+bench/scaling.sh "${1:-}"
+bench/peers.sh "${1:-}"

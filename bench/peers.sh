@@ -34,10 +34,10 @@ float=$(single CONTACT=hertz_mindlin)
 float_rolling=$(single CONTACT=hertz_mindlin ROLLING=epsd)
 settled
 
-# Steps for about two seconds of a program that does so many grain-steps a second; at least 3.
+# Steps for about a second of a program that does so many grain-steps a second; at least 3.
 steps() { # RATE GRAINS CORES
     awk -v r="$1" -v n="$2" -v c="$3" -v q="$quick" 'BEGIN {
-        k = int(r * c / n * (q == "quick" ? 0.7 : 1.5)); print k < 3 ? 3 : k }'
+        k = int(r * c / n * (q == "quick" ? 0.5 : 0.9)); print k < 3 ? 3 : k }'
 }
 
 note() { # NAME GRAINS CORES RATE BYTES

@@ -19,7 +19,7 @@ settled
 timed() { # NAME BINARY GRAINS THREADS
     local steps
     [ -n "$2" ] || return 0
-    steps=$(awk -v n="$3" -v j="$4" -v q="$quick" 'BEGIN { print int((q == "quick" ? 2e7 : 4e7) * (j > 4 ? 4 : j) / n) }')
+    steps=$(awk -v n="$3" -v j="$4" -v q="$quick" 'BEGIN { print int((q == "quick" ? 2e7 : 5e7) * (j > 4 ? 4 : j) / n) }')
     silt "$2" "$3" "$4" "$steps" || return 0
     echo "rate $1 $3 $4 $(summary grain_steps_per_second)" >> "$tmp/figures"
     echo "bytes $1 $3 $4 $(cat "$tmp/peak")" >> "$tmp/figures"
@@ -92,7 +92,7 @@ for ((round = 0; round < rounds; round++)); do
         per=$(summary contacts_per_grain)
         rate=$(summary grain_steps_per_second)
         echo "made $r $made" >> "$tmp/figures"
-        echo "per $r $per" >> "$tmp/figures"
+        printf 'per %s %.2f\n' "$r" "$per" >> "$tmp/figures"
         echo "builds $r $(summary list_builds)" >> "$tmp/figures"
         echo "ns $r $(ratio 1e9 "$(awk -v a="$rate" -v b="$per" 'BEGIN { print a * b }')" %.2f)" >> "$tmp/figures"
     done
