@@ -1,5 +1,6 @@
 # silt: builds what a scene requires. `./run.sh` calls this; by hand:
 #   make CONTACT=hertz_mindlin DRAG=ergun POROSITY=divided FLUID=navier_stokes
+#   make REAL=float ...   the contact loop in single precision
 #   make check      the tests          make verify   all verification cases
 #   make bench      timings            make format   clang-format over the tree
 SHAPE     ?= sphere
@@ -14,6 +15,7 @@ FLUID     ?= none
 REFERENCE ?= none
 FORCES    ?= none  # as many as wanted, sorted: magnus+saffman
 MODE      ?= release
+REAL      ?= double# or float: the precision of the contact loop (solver/real.h)
 
 # A list of forces "a+b" as the answers forces/a forces/b, and a table of them that is made below.
 forces_of = $(addprefix forces/,$(filter-out none,$(subst +, ,$(1)))) lists/forces-$(strip $(1))
@@ -23,7 +25,7 @@ ANSWERS := shapes/$(SHAPE) contact/$(CONTACT) contact/rolling/$(ROLLING) contact
 SLOT_DIRS := shapes contact contact/rolling contact/bond contact/cohesion contact/lubrication \
              drag porosity solver/fluid reference
 NAME  := $(SHAPE)-$(CONTACT)-$(ROLLING)-$(BOND)-$(COHESION)-$(LUBRICATION)-$(DRAG)-$(POROSITY)-$(FLUID)-$(REFERENCE)-$(strip $(FORCES))
-BUILD := build/$(MODE)
+BUILD := build/$(MODE)$(if $(filter float,$(REAL)),-float)
 
 # ---- below here nothing needs editing ----
 CC := gcc
@@ -35,7 +37,15 @@ BASE := -std=c11 -D_POSIX_C_SOURCE=200809L -fopenmp -ffp-contract=off -fno-math-
 FLAGS_release := -O3 -march=native -mprefer-vector-width=512 -mtune=icelake-server -g
 FLAGS_debug   := -O1 -g3 -fno-omit-frame-pointer -fsanitize=address,undefined \
                  -fno-sanitize-recover=undefined
-CFLAGS := $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE))
+CFLAGS = $(BASE) $(WARN) $(WERROR) $(FLAGS_$(MODE)) $(FLAGS_$(REAL))
+FLAGS_double :=
+FLAGS_float := -DSILT_FLOAT -Wno-double-promotion -Wno-conversion -Wno-float-conversion
+# In the loop itself constants have the precision of the build too.
+ifeq ($(REAL),float)
+build/$(MODE)-float/obj/contact/%.o build/$(MODE)-float/obj/shapes/%.o \
+build/$(MODE)-float/obj/solver/contact_block.o build/$(MODE)-float/obj/solver/contact_loop.o: \
+    FLAGS_float += -fsingle-precision-constant
+endif
 comma := ,
 empty :=
 space := $(empty) $(empty)
@@ -155,7 +165,7 @@ $(BUILD)/matrix/%: $(BUILD)/obj/solver/main.o $(LIB) $(SHARED) $(FIRST)
 $(BUILD)/provenance.h: FORCE
 	@mkdir -p $(@D)
 	@{ printf '#define SILT_REVISION "%s"\n' "$$(git describe --always --dirty 2>/dev/null || echo unknown)"; \
-	   printf '#define SILT_FLAGS "%s"\n' "$(FLAGS_$(MODE)) $(BASE)"; \
+	   printf '#define SILT_FLAGS "%s"\n' "$(FLAGS_$(MODE)) $(FLAGS_$(REAL)) $(BASE)"; \
 	   printf '#define SILT_COMPILER "%s"\n' "$$($(CC) --version | head -n 1)"; } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/obj/solver/provenance.o: $(BUILD)/provenance.h

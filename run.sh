@@ -6,7 +6,8 @@ set -euo pipefail
 caller=$PWD
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 bin=build/${MODE:-release}             # MODE=debug: with sanitizers
-unset MAKEFLAGS MFLAGS MAKELEVEL       # this may be called by make
+real=${REAL:-double}                   # REAL=float: the contact loop in single precision
+unset MAKEFLAGS MFLAGS MAKELEVEL REAL  # this may be called by make
 
 usage() {
     cat <<'TEXT'
@@ -137,8 +138,8 @@ build_scene() {
     build "$bin/front"
     slots=$("$bin/front" slots "$scene" "${overrides[@]}") || exit $?
     read -r -a slots <<< "$slots"
-    build "${slots[@]}" silt
-    binary=$(make -s "${slots[@]}" where)
+    build "${slots[@]}" REAL="$real" silt
+    binary=$(make -s "${slots[@]}" REAL="$real" where)
 }
 
 # Runs the program and hands signals on to it: it completes its outputs and ends by itself. In

@@ -46,6 +46,12 @@ run bounce scenes/bounce.ini
 verdict $? "bounce.ini runs"
 grep -q '^verdict = pass' "$tmp/bounce/summary.txt"
 verdict $? "bounce.ini: heights on restitution squared"
+REAL=float run single scenes/bounce.ini
+verdict $? "bounce.ini runs in single precision"
+within "$(awk -v a="$(value "$tmp/single" rebound_4_error)" -v b="$(value "$tmp/bounce" rebound_4_error)" 'BEGIN { print a - b }')" 1e-4
+verdict $? "and comes to the heights of double within 1e-4, and not to its bits: $(value "$tmp/single" rebound_4_error)"
+grep -q '^ledger = closes' "$tmp/single/summary.txt" && ! cmp -s "$tmp/single/run.nc" "$tmp/bounce/run.nc"
+verdict $? "its ledger closes"
 run darcy scenes/darcy_column.ini
 verdict $? "darcy_column.ini runs"
 grep -q '^verdict = pass' "$tmp/darcy/summary.txt"
