@@ -13,9 +13,10 @@
 
 #define SKIN_LEAST  0.06 /* of the mean diameter */
 #define SKIN_MOST   0.30
-#define SKIN_STEPS  30.0 /* steps that a skin should last */
-#define INNER_STEPS 16.0 /* steps that the thin skin should last */
-#define INNER_MOST  0.01 /* of the mean diameter: thicker, it costs more than it saves */
+#define SKIN_STEPS  30.0  /* steps that a skin should last */
+#define INNER_STEPS 16.0  /* steps that the thin skin should last */
+#define INNER_LEAST 0.002 /* of the mean diameter: a bed at rest may wake up */
+#define INNER_MOST  0.01  /* of the mean diameter: thicker, it costs more than it saves */
 
 void neighbours_check(const struct sim *s, struct scene *scene)
 {
@@ -82,7 +83,7 @@ static void choose_skins(struct sim *s)
     const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
     const double way = 2.0 * fmax(s->neighbours.way, s->walls.speed * s->run.dt);
     s->neighbours.skin = fmin(fmax(SKIN_STEPS * way, SKIN_LEAST * mean), SKIN_MOST * mean);
-    const double inner = fmin(INNER_STEPS * way, INNER_MOST * mean);
+    const double inner = fmin(fmax(INNER_STEPS * way, INNER_LEAST * mean), INNER_MOST * mean);
     s->neighbours.inner = inner > 2.0 * way ? inner : 0.0;
 }
 
