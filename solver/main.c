@@ -214,6 +214,17 @@ static void bound_spinning(char **argv)
     execv("/proc/self/exe", argv); /* if it cannot, the run goes on as it is */
 }
 
+/* Without -j: no more threads than there is work for, since waiting for each other takes longer than
+ * a few hundred grains or some thousand cells. The results do not depend on it. */
+static void fit_threads(const struct sim *s)
+{
+    enum { GRAINS = 500, CELLS = 5000 }; /* per thread */
+    const double work = (double)s->grains.n / GRAINS + (double)s->grid.total / CELLS;
+    const int most = omp_get_max_threads(), enough = 1 + (int)fmin(work, 1000.0);
+    if (!getenv("OMP_NUM_THREADS") && !insert_changes(s) && enough < most)
+        omp_set_num_threads(enough);
+}
+
 int main(int argc, char **argv)
 {
     bound_spinning(argv);
@@ -226,6 +237,8 @@ int main(int argc, char **argv)
     int code = EXIT_GOOD;
     s->run.directory = o.directory ? xstrdup(o.directory) : default_directory(o.scene);
     sim_create(s, scene, &f);
+    if (o.threads == 0)
+        fit_threads(s);
     if (o.check)
         feasibility_print(stdout, s, &f);
     scene_finish(scene);
