@@ -26,6 +26,18 @@ struct sums {     /* of the contacts of a grain in one run */
     double8 both; /* force, N, and nothing; torque, N m, and nothing */
 };
 
+/* Through memory that the compiler does not look into: with gcc 12.2 at -O3, torque.x came out as
+ * force.z where the lanes of a vector went straight into two vec3 that lie in a row (at -O1 it did
+ * not). verify/test_wall_motion.c tells. */
+static inline void sums_part(double8 both, vec3 *force, vec3 *torque)
+{
+    volatile double a[8];
+    for (int k = 0; k < 8; k++)
+        a[k] = both[k];
+    *force = v3(a[0], a[1], a[2]);
+    *torque = v3(a[4], a[5], a[6]);
+}
+
 struct block {
     int n;           /* contacts so far, TOUCH at most */
     bool walls;      /* of wall slots */

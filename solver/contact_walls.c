@@ -251,16 +251,6 @@ void walls_enter(struct sim *s, int run, struct block *b, const struct target *t
     block_work_walls(s, b, to);
 }
 
-static vec3 force_part(struct sums a)
-{
-    return v3(a.both[0], a.both[1], a.both[2]);
-}
-
-static vec3 torque_part(struct sums a)
-{
-    return v3(a.both[4], a.both[5], a.both[6]);
-}
-
 void walls_flush(struct sim *s)
 {
     const struct contact_work *const c = s->contacts;
@@ -272,8 +262,10 @@ void walls_flush(struct sim *s)
             sum.both += of->both;
             *of = (struct sums){0};
         }
-        w->sum = v3_add(w->sum, force_part(sum));
-        w->torque_sum = v3_add(w->torque_sum, torque_part(sum));
+        vec3 force, torque;
+        sums_part(sum.both, &force, &torque);
+        w->sum = v3_add(w->sum, force);
+        w->torque_sum = v3_add(w->torque_sum, torque);
     }
 }
 
@@ -304,9 +296,10 @@ void walls_collect(struct sim *s, int steps)
                 &s->contacts->wall_force[(size_t)run * s->walls.n + k];
             now.both += of->both;
         }
-        walls_impulse(&w->force_before, &w->sum, &w->impulse, force_part(now), steps, dt);
-        walls_impulse(&w->torque_before, &w->torque_sum, &w->turn_impulse, torque_part(now),
-                      steps, dt);
+        vec3 force, torque;
+        sums_part(now.both, &force, &torque);
+        walls_impulse(&w->force_before, &w->sum, &w->impulse, force, steps, dt);
+        walls_impulse(&w->torque_before, &w->torque_sum, &w->turn_impulse, torque, steps, dt);
         w->force = w->force_before;
         w->torque = w->torque_before;
         note_series(s, w, impulse, turn, steps * dt);

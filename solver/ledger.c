@@ -39,6 +39,15 @@ static vec3 wall_impulses(const struct sim *s)
     return sum;
 }
 
+/* N s; of each wall on its own: those on two sides of a sample cancel. */
+static double wall_impulse_size(const struct sim *s)
+{
+    double sum = v3_norm(s->walls.skeleton_impulse);
+    for (int k = 0; k < s->walls.n; k++)
+        sum += v3_norm(s->walls.wall[k].impulse);
+    return sum;
+}
+
 void ledger_gain(struct sim *s, int i, double mass)
 {
     const struct grains *const g = &s->grains;
@@ -76,8 +85,7 @@ static void close_momentum(struct sim *s, double time)
     l->impulse_walls = v3_scale(-1.0, wall_impulses(s));
     const vec3 sum = v3_add(l->impulse_weight, v3_add(l->impulse_fluid, l->impulse_walls));
     const vec3 change = v3_sub(l->momentum, l->momentum_start);
-    double size =
-        v3_norm(l->impulse_weight) + v3_norm(l->impulse_fluid) + v3_norm(l->impulse_walls);
+    double size = v3_norm(l->impulse_weight) + v3_norm(l->impulse_fluid) + wall_impulse_size(s);
     size += sqrt(2.0 * l->mass * l->kinetic);
     l->momentum_error = size > 0.0 ? v3_norm(v3_sub(change, sum)) / size : 0.0;
 }

@@ -18,10 +18,10 @@ struct ledger {
     double mass_start;             /* kg, and what came less what went since */
     vec3 momentum, momentum_start; /* kg m/s */
     vec3 impulse_weight, impulse_walls, impulse_fluid; /* N s since the start */
-    double momentum_error;              /* |change - impulses| / (sum of |impulses|) */
-    double handover_error;              /* largest |to_grains + from_grains| / |to_grains| */
-    double volume_error;                /* largest |volume on grid / volume - 1| */
-    double kinetic, potential, elastic; /* J */
+    double momentum_error; /* |change - impulses| / (sum of |impulses|, wall by wall) */
+    double handover_error; /* largest |to_grains + from_grains| / |to_grains| */
+    double volume_error;   /* largest |volume on grid / volume - 1| */
+    double kinetic, potential, elastic;          /* J */
     double energy_start, work_fluid, dissipated; /* J */
     double dissipated_least; /* J, most negative drop seen: contacts that made energy */
 };

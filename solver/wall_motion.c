@@ -218,7 +218,8 @@ void walls_feel(struct sim *s)
         if (!w->motion.moves)
             continue;
         const double8 on = add_runs(s, k);
-        const vec3 force = v3(on[0], on[1], on[2]), torque = v3(on[4], on[5], on[6]);
+        vec3 force, torque;
+        sums_part(on, &force, &torque);
         const double power = v3_dot(force, w->pose.velocity) + v3_dot(torque, w->pose.spin);
         w->state.work += 0.5 * s->run.dt * (w->state.power + power);
         w->state.power = power;

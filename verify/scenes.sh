@@ -69,6 +69,18 @@ run carried scenes/settling.ini modules.fluid=prescribed modules.reference=none 
 verdict $? "a flow from the run.nc of another run carries a grain"
 ! ldd "$(make -s $(build/release/front slots scenes/settling.ini modules.fluid=prescribed modules.reference=none) where)" | grep -q fftw
 verdict $? "its binary links no FFTW"
+run drum scenes/drum.ini "run.end=0.6 s"
+verdict $? "drum.ini in short form runs"
+awk -v a="$(value "$tmp/drum" bed_angle)" 'BEGIN { exit !(a < -20 && a > -45) }'
+verdict $? "drum.ini: its surface has risen with the wall, $(value "$tmp/drum" bed_angle) degree"
+run funnel scenes/funnel.ini "run.end=0.3 s"
+verdict $? "funnel.ini in short form runs"
+awk -v m="$(value "$tmp/funnel" outlet_mass)" 'BEGIN { exit !(m > 0.001) }'
+verdict $? "funnel.ini: grains leave through the mesh's outlet, $(value "$tmp/funnel" outlet_mass) kg"
+run triaxial scenes/triaxial.ini "run.end=0.1 s"
+verdict $? "triaxial.ini in short form runs"
+awk -v p="$(value "$tmp/triaxial" wall_left_stress)" 'BEGIN { exit !(p > 18e3 && p < 22e3) }'
+verdict $? "triaxial.ini: the servo holds 20 kPa within 10 %, $(value "$tmp/triaxial" wall_left_stress) Pa"
 short=("domain.size=12.25 12.25 40 mm" "domain.cells=3 3 24" "grains beads.count=2000" flow.steps=6 "run.end=0.18 s")
 run bed scenes/packed_bed.ini "${short[@]}"
 verdict $? "packed_bed.ini in short form runs"
@@ -78,11 +90,11 @@ within "$(value "$tmp/bed" plateau_error)" 0.015
 verdict $? "packed bed: plateau against the buoyant weight, $(value "$tmp/bed" plateau_error)"
 within "$(value "$tmp/bed" u_mf_error)" 0.05
 verdict $? "packed bed: fluidisation velocity, $(value "$tmp/bed" u_mf_error)"
-for s in settling bounce bed; do
+for s in settling bounce bed drum funnel triaxial; do
     grep -q '^ledger = closes' "$tmp/$s/summary.txt"
     verdict $? "$s: the ledger closes"
 done
-for f in bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png \
+for f in drum/bed.png funnel/bed.png triaxial/force_chains.png bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png \
     channel/velocity.png channel/pressure.png cavity/vertical.png bed/porosity.png; do
     [ -s "$tmp/$f" ]
     verdict $? "$f is drawn"
