@@ -8,6 +8,7 @@
  * what a grain feels of a field is what it would put there (the same weights both ways, the Gaussian
  * included); grains that fill a box evenly give an even fluid fraction up to its walls. How well a
  * field linear in space is felt is printed; answers that promise it exactly are held to it. */
+#include <omp.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_rng.h>
@@ -473,6 +474,7 @@ static void visit(const char *name, void *object)
 
 int main(int argc, char **argv)
 {
+    omp_set_num_threads(1); /* bits over threads are test_spread's */
     (void)argc;
     gsl_set_error_handler_off();
     gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
