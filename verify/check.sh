@@ -55,8 +55,7 @@ if command -v clang-format > /dev/null; then
 else
     echo "format                       skipped: no clang-format here"
 fi
-# test_porosity stops now and then before its end (a fault not found yet): run it by hand.
-tests=$(cd verify && ls test_*.c | grep -v test_porosity.c | sed 's/\.c$//')
+tests=$(cd verify && ls test_*.c | sed 's/\.c$//')
 tally "build of the tests" single make -s -j"$jobs" WERROR=-Werror MODE=debug \
     $(printf 'build/debug/verify/%s ' $tests)
 export ASAN_OPTIONS=detect_leaks=0

@@ -8,7 +8,6 @@
  * what a grain feels of a field is what it would put there (the same weights both ways, the Gaussian
  * included); grains that fill a box evenly give an even fluid fraction up to its walls. How well a
  * field linear in space is felt is printed; answers that promise it exactly are held to it. */
-#include <omp.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_rng.h>
@@ -263,24 +262,24 @@ struct seen {
     struct diffuse *diffuse;
 };
 
-static struct seen see(const struct answer *answer, const struct domain *d,
-                       const struct grains *grains)
+/* In place: spread and diffusion keep the address of the grid. */
+static void see(struct seen *s, const struct answer *answer, const struct domain *d,
+                const struct grains *grains)
 {
-    struct seen s = {.answer = answer, .reach = 1};
     double largest = 0.0;
-    grid_create(&s.g, d);
+    *s = (struct seen){.answer = answer};
+    grid_create(&s->g, d);
     for (int n = 0; n < grains->n; n++)
         largest = fmax(largest, grains->radius[n]);
-    s.reach = answer->reach(&s.g, largest);
-    s.shares = xalloc((size_t)grains->n * s.reach, sizeof *s.shares);
-    s.n_shares = xalloc((size_t)grains->n, sizeof *s.n_shares);
+    s->reach = answer->reach(&s->g, largest);
+    s->shares = xalloc((size_t)grains->n * s->reach, sizeof *s->shares);
+    s->n_shares = xalloc((size_t)grains->n, sizeof *s->n_shares);
     for (int n = 0; n < grains->n; n++)
-        s.n_shares[n] = answer->shares(&s.g, d, grains, n, &s.shares[(size_t)n * s.reach]);
+        s->n_shares[n] = answer->shares(&s->g, d, grains, n, &s->shares[(size_t)n * s->reach]);
     if (answer->width(largest) > 0.0)
-        s.diffuse = diffuse_create(&s.g, d, answer->width(largest));
-    spread_create(&s.spread, &s.g);
-    spread_prepare(&s.spread, grains->n, s.reach, s.n_shares, s.shares);
-    return s;
+        s->diffuse = diffuse_create(&s->g, d, answer->width(largest));
+    spread_create(&s->spread, &s->g);
+    spread_prepare(&s->spread, grains->n, s->reach, s->n_shares, s->shares);
 }
 
 static void see_free(struct seen *s)
@@ -316,7 +315,8 @@ static void test_exchange(const struct answer *answer, const struct domain *d, c
     grid_create(&g, d);
     const double volume = place_grains(rng, d, &g);
     const struct grains grains = {.n = GRAINS, .pos = positions, .radius = radii};
-    struct seen s = see(answer, d, &grains);
+    struct seen s;
+    see(&s, answer, d, &grains);
     double *const out = grid_field(&g), *const field = grid_field(&g);
     double value[GRAINS], felt = 0.0, given = 0.0, size = 0.0;
     for (int n = 0; n < GRAINS; n++)
@@ -368,7 +368,8 @@ static void test_even(const struct answer *answer, const struct domain *d, const
         grains.radius[n] = 0.23 * g.h[0];
         value[n] = 1.0;
     }
-    struct seen s = see(answer, d, &grains);
+    struct seen s;
+    see(&s, answer, d, &grains);
     see_spread(&s, value, out);
     const double mean = pow(PER_CELL, 3);
     double worst = 0.0;
@@ -398,7 +399,8 @@ static void test_linear(const struct answer *answer)
             v3(uniform(rng, 0.45, 0.65), uniform(rng, 0.55, 0.75), uniform(rng, 0.65, 0.85));
         radii[n] = 0.45 * g.h[0];
     }
-    struct seen s = see(answer, &d, &grains);
+    struct seen s;
+    see(&s, answer, &d, &grains);
     double *const field = grid_field(&g), worst = 0.0;
     for (int k = 1; k <= g.n[2]; k++)
         for (int j = 1; j <= g.n[1]; j++)
@@ -474,7 +476,6 @@ static void visit(const char *name, void *object)
 
 int main(int argc, char **argv)
 {
-    omp_set_num_threads(1); /* bits over threads are test_spread's */
     (void)argc;
     gsl_set_error_handler_off();
     gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
