@@ -13,7 +13,8 @@ DRAG      ?= none
 POROSITY  ?= none
 FLUID     ?= none
 REFERENCE ?= none
-FORCES    ?= none  # as many as wanted, sorted: magnus+saffman
+STANDARD  := $(shell sed -n 's/^.define FORCES_STANDARD "\(.*\)"$$/\1/p' forces/force.h)
+FORCES    ?= $(if $(filter none,$(FLUID)),none,$(subst $(space),+,$(STANDARD)))# sorted: brownian+buoyancy
 MODE      ?= release
 REAL      ?= double# or float: the precision of the contact loop (solver/real.h)
 
@@ -113,13 +114,15 @@ $(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
 
 # A test holds the whole library and one answer per slot: the first of each folder that its line
-# "slots: contact/linear ..." names, or else none; of forces/ all that are named. It may load others
+# "slots: contact/linear ..." names, or else none; of forces/ the standard ones, where it has a fluid, and
+# all that are named. It may load others
 # (-Bsymbolic keeps each to its own symbols).
 slots_of = $(shell for d in $(SLOT_DIRS); do a=$$d/none; [ $$d = shapes ] && a=$$d/sphere; \
            for s in $$(sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c); do \
            [ "$${s%/*}" = $$d ] && a=$$s; done; echo $$a; done)
-forces_named = $(sort $(patsubst forces/%,%,$(filter forces/%, \
-               $(shell sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c))))
+slot_line = $(shell sed -n 's|^/. slots: \(.*\) ./$$|\1|p' $(1).c)
+forces_named = $(sort $(patsubst forces/%,%,$(filter forces/%,$(call slot_line,$(1)))) \
+               $(if $(filter solver/fluid/%,$(call slot_line,$(1))),$(STANDARD)))
 answers_of = $(call slots_of,$(1)) \
              $(call forces_of,$(if $(forces_named),$(subst $(space),+,$(forces_named)),none))
 .SECONDEXPANSION:

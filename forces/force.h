@@ -1,10 +1,20 @@
-/* forces/force.h - contract: what else does the fluid do to a grain, besides drag, stress and buoyancy?
+/* forces/force.h - contract: what does the fluid do to a grain, besides drag?
  *
- * A scene names as many answers as it wants: `forces = brownian magnus` in [modules]; the binary holds
- * those and no others. To add one: a new file forces/NAME.c with one `const struct force force_NAME`;
- * nothing else is edited.
+ * A scene names as many answers as it wants, in [modules]. The standard ones of FORCES_STANDARD need no
+ * name; a minus takes one away, `none` all of them:
+ *   forces = virtual_mass -viscous     buoyancy, pressure gradient, virtual mass
+ *   forces = none buoyancy             nothing but buoyancy
+ * The binary holds those and no others. To add one: a new file forces/NAME.c with one
+ * `const struct force force_NAME`; nothing else is edited.
  *
- * A force is a pure function of what a grain sees at the start of a fluid step and stays constant over
+ * Pressure and viscous force and buoyancy are terms that the fluid's equation holds already: `of_pressure`,
+ * `of_viscous`, `of_weight` say how much of V (f - grad p), V div tau and V rho g a grain takes. Forms 27a
+ * and 27b of the momentum equation give eps of the stress to the fluid and the rest to the grains, with the
+ * weights by which they are spread; 27c gives all to the fluid, drag/eps to the grains, and a scene of that
+ * form that names one of the two is refused. Without one of them the fluid keeps its equation, and what
+ * the grains would have borne is lost to both.
+ *
+ * Another force is a pure function of what a grain sees at the start of a fluid step and stays constant over
  * the step. It is called from parallel loops. Its reaction, where `returned`, goes to the fluid of the
  * same step with the weights by which the grain is spread, in every form of the momentum equation: form
  * 27a and 27b hold the pressure and viscous forces already, 27c none of these (the review's eq. 30
@@ -32,6 +42,8 @@ struct force_view {
     unsigned long seed;
 };
 
+#define FORCES_STANDARD "buoyancy pressure_gradient viscous"
+
 struct force {
     struct about about;
     const struct key *keys;                          /* of section "forces" */
@@ -40,6 +52,7 @@ struct force {
     vec3 (*act)(const struct force_view *v);         /* N; NULL: none of this kind */
     double (*added_mass)(void);                      /* over rho V; NULL: none */
     double (*spin_rate)(const struct force_view *v); /* N m s; NULL: no torque */
+    double of_pressure, of_viscous, of_weight;       /* V (f - grad p), V div tau, V rho g */
 };
 
 /* The forces of this binary; the last entry is NULL. */

@@ -172,8 +172,8 @@ void reference_create(struct sim *s, struct scene *scene)
         scene_error(scene, "modules", NULL, "drag", "terminal_velocity needs a drag law");
         return;
     }
-    const double buoyant = s->coupling.buoyancy ? p->rho * s->grains.volume[0] : 0.0;
-    p->pull = v3_scale(p->mass - buoyant, s->domain.gravity);
+    const double fluid = s->coupling.forces.weight * p->rho * s->grains.volume[0];
+    p->pull = v3_scale(p->mass + fluid, s->domain.gravity);
     const double pull = v3_norm(p->pull);
     for (int side = 0; side < 6; side++)
         if (s->domain.side[side].kind == SIDE_INFLOW) {

@@ -10,11 +10,6 @@ const struct key coupling_keys[] = {
      "one: the fluid does not feel the grains"},
     {"coupling", "drag", KEY_CHOICE, "", "implicit | explicit", "implicit",
      "treatment of the drag on the grains; explicit is stable for fluid.dt below m/kappa only"},
-    {"coupling", "pressure_gradient", KEY_CHOICE, "", "off | on", "on",
-     "force -V grad p on the grains (p without its hydrostatic part)"},
-    {"coupling", "viscous", KEY_CHOICE, "", "off | on", "on", "force V div tau on the grains"},
-    {"coupling", "buoyancy", KEY_CHOICE, "", "off | on", "on",
-     "force -rho_f V g on the grains"},
     {"coupling", "porosity_min", KEY_REAL, "1", "[0, 1)", "0.05",
      "a smaller fluid fraction in a cell stops the run"},
     {0},
@@ -27,9 +22,6 @@ void coupling_read(struct sim *s, struct scene *scene)
     c->ways = scene_choice(scene, "coupling", NULL, "ways") == 0 ? 2 : 1;
     c->resistance = v3(1.0, 1.0, 1.0);
     c->implicit = scene_choice(scene, "coupling", NULL, "drag") == 0;
-    c->pressure_gradient = scene_choice(scene, "coupling", NULL, "pressure_gradient") == 1;
-    c->viscous = scene_choice(scene, "coupling", NULL, "viscous") == 1;
-    c->buoyancy = scene_choice(scene, "coupling", NULL, "buoyancy") == 1;
     c->eps_min = scene_real(scene, "coupling", NULL, "porosity_min");
     drag_init(scene);
     drag_grains_read(s, scene);
@@ -192,9 +184,9 @@ static void sense_squares(struct sim *s)
 static void first_change(struct sim *s, int i)
 {
     const struct grains *const g = &s->grains;
-    const double rho = s->coupling.buoyancy ? s->fluid.rho : 0.0;
+    const double rho = s->coupling.forces.weight * s->fluid.rho;
     const vec3 dry = v3_sub(g->force[i], g->load[i]);
-    const vec3 force = v3_axpy(dry, g->mass[i] - rho * g->volume[i], s->domain.gravity);
+    const vec3 force = v3_axpy(dry, g->mass[i] + rho * g->volume[i], s->domain.gravity);
     s->coupling.vel_old[i] = v3_axpy(g->vel[i], -s->fluid.dt * g->inv_mass[i], force);
 }
 

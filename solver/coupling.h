@@ -45,24 +45,23 @@ struct sim;
 struct coupling {
     int ways; /* 2; 1: the fluid does not feel the grains */
     bool implicit;
-    bool pressure_gradient, viscous, buoyancy; /* forces on grains besides drag */
-    double eps_min;                            /* smaller fluid fractions stop the run */
-    long calls;                                /* of coupling_load since the start */
-    int reach;                                 /* shares per grain, at most */
-    int *n_shares;                             /* per grain */
-    struct share *shares;                      /* n x reach */
-    struct spread spread;                      /* of the shares, to cells */
-    struct diffuse *diffuse;                   /* D; NULL: the identity */
-    struct fluid_forces forces;                /* besides drag, stress, buoyancy */
-    struct drag_grains drag_of;                /* the grains as the drag law sees them */
-    double by_volume;                          /* Pa/m; > 0: kappa is that of a conductivity of
+    double eps_min;             /* smaller fluid fractions stop the run */
+    long calls;                 /* of coupling_load since the start */
+    int reach;                  /* shares per grain, at most */
+    int *n_shares;              /* per grain */
+    struct share *shares;       /* n x reach */
+    struct spread spread;       /* of the shares, to cells */
+    struct diffuse *diffuse;    /* D; NULL: the identity */
+    struct fluid_forces forces; /* besides drag */
+    struct drag_grains drag_of; /* the grains as the drag law sees them */
+    double by_volume;           /* Pa/m; > 0: kappa is that of a conductivity of
                                                   1 m/s, by the volume of the grain */
-    vec3 resistance;                           /* factor of kappa in each direction */
-    double *part;                              /* n x reach, w kappa, kg/s */
-    double *values;    /* n x SPREAD_STRIDE, what a grain adds to its cells */
-    vec3 *slack;       /* 1/(1 + theta) per direction: kappa' over kappa */
-    vec3 *drag;        /* N per grain, the last drag force (a grain field) */
-    vec3 *vel_old;     /* m/s at the last fluid step (a grain field) */
+    vec3 resistance;            /* factor of kappa in each direction */
+    double *part;               /* n x reach, w kappa, kg/s */
+    double *values;             /* n x SPREAD_STRIDE, what a grain adds to its cells */
+    vec3 *slack;                /* 1/(1 + theta) per direction: kappa' over kappa */
+    vec3 *drag;                 /* N per grain, the last drag force (a grain field) */
+    vec3 *vel_old;              /* m/s at the last fluid step (a grain field) */
     int *coupled;      /* 1 once the grain has felt the fluid; newcomers: 0 (a grain field) */
     vec3 *pos_load;    /* m at the last fluid step (a grain field), for the ledger's work */
     vec3 *v_ref;       /* m/s, v' */

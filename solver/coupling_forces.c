@@ -204,8 +204,7 @@ static vec3 grain_load(struct sim *s, int i)
         }
     }
     c->drag[i] = v3(c->slack[i].x * drag[0], c->slack[i].y * drag[1], c->slack[i].z * drag[2]);
-    const double volume = c->pressure_gradient ? g->volume[i] : 0.0;
-    return v3_axpy(c->drag[i], volume, v3(stress[0], stress[1], stress[2]));
+    return v3_axpy(c->drag[i], g->volume[i], v3(stress[0], stress[1], stress[2]));
 }
 
 /* What the fluid loses through the faces of direction a in layer k: B u - S and the grains' share of
@@ -222,7 +221,7 @@ static double lost_in_layer(const struct sim *s, int a, int k)
             const int at = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
             const double part = open && (n == 1 || n == g->n[a] + 1) ? 0.5 : 1.0;
             double lost = f->drag[a][at] * f->u[a][at] - f->drag_s[a][at];
-            if (s->coupling.pressure_gradient && !f->whole_pressure)
+            if (!f->whole_pressure)
                 lost += (1.0 - f->eps_f[a][at]) * f->stress[a][at];
             sum += part * lost;
         }
@@ -264,7 +263,7 @@ void coupling_load(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     struct grains *const g = &s->grains;
-    const double buoyant = c->buoyancy ? -s->fluid.rho : 0.0;
+    const double buoyant = c->forces.weight * s->fluid.rho;
     see_flow(s);
     forces_see_acceleration(s);
     forces_inertia(s);

@@ -184,16 +184,28 @@ void fluid_ghosts_of_change(const struct sim *s, int a, double *du)
     ghosts_of(s, a, du, 0.0);
 }
 
+/* What of the stress balances the drag on a face whose velocity is given, N/m3: 0 on a wall. */
+static double balance_on_face(const struct sim *s, int a, int face, bool flows)
+{
+    const struct fluid *const f = &s->fluid;
+    const double share = f->whole_pressure ? 1.0 : f->eps_f[a][face];
+    return flows && share > 0.0
+               ? (f->drag[a][face] * f->u[a][face] - f->drag_s[a][face]) / share
+               : 0.0;
+}
+
 double fluid_boundary_pressure(const struct sim *s, int side)
 {
+    const enum side_kind kind = s->domain.side[side].kind;
+    const bool flows = kind == SIDE_INFLOW || kind == SIDE_FLUX;
     const struct grid *const g = &s->grid;
     const int a = side / 2, end = side % 2, n = g->n[a];
     const int nb = g->n[beside(a, 0)], nc = g->n[beside(a, 1)];
     const double gravity = v3_norm(s->domain.gravity);
     const double drive[3] = {s->flow.gradient.x, s->flow.gradient.y, s->flow.gradient.z};
-    if (s->domain.side[side].kind == SIDE_OUTFLOW)
+    if (kind == SIDE_OUTFLOW)
         return 0.0;
-    if (s->domain.side[side].kind == SIDE_HEAD)
+    if (kind == SIDE_HEAD)
         return s->fluid.rho * (gravity > 0.0 ? gravity : 9.81) *
                course_at(&s->domain.side[side].head, s->t);
     double sum = 0.0;
@@ -201,7 +213,8 @@ double fluid_boundary_pressure(const struct sim *s, int side)
         for (int j = 1; j <= nb; j++) {
             const int face = at_layer(g, a, end ? n + 1 : 1, j, k);
             const int inside = at_layer(g, a, end ? n : 1, j, k);
-            const double G = s->fluid.bare ? 0.0 : s->fluid.stress[a][face] - drive[a];
+            const double G =
+                s->fluid.bare ? 0.0 : balance_on_face(s, a, face, flows) - drive[a];
             sum += s->fluid.p[inside] + (end ? -0.5 : 0.5) * g->h[a] * G;
         }
     return sum / ((double)nb * nc);

@@ -3,22 +3,56 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include "../forces/force.h"
 #include "base.h"
+
+static const char between[] = " ,+\t";
 
 static int by_name(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-char *force_names(const char *text)
+bool force_names_given(const char *text, const char *name)
 {
-    char *const copy = xstrdup(text), *rest = NULL, *out = xstrdup("");
-    char **const name = xalloc(strlen(text) + 1, sizeof *name);
+    const size_t n = strlen(name);
+    for (text += strspn(text, between); *text; text += strspn(text, between)) {
+        const size_t word = strcspn(text, between);
+        if (word == n && strncmp(text, name, n) == 0)
+            return true;
+        text += word;
+    }
+    return false;
+}
+
+/* Is it taken away? */
+static bool removed(const char *text, const char *name)
+{
+    char *const minus = xprintf("-%s", name);
+    const bool yes = force_names_given(text, minus);
+    xfree(minus);
+    return yes;
+}
+
+/* The names in `out`, which points into `words`; how many. "standard" is what there is anyway. */
+static int collect(char *words, const char *text, char **out)
+{
+    char *rest = NULL;
     int n = 0;
-    for (char *word = strtok_r(copy, " ,+\t", &rest); word;
-         word = strtok_r(NULL, " ,+\t", &rest))
-        if (strcmp(word, "none") != 0)
-            name[n++] = word;
+    for (char *word = strtok_r(words, between, &rest); word;
+         word = strtok_r(NULL, between, &rest))
+        if (word[0] != '-' && strcmp(word, "none") != 0 && strcmp(word, "standard") != 0 &&
+            !removed(text, word))
+            out[n++] = word;
+    return n;
+}
+
+char *force_names(const char *text, bool fluid)
+{
+    const bool standard = fluid && !force_names_given(text, "none");
+    char *const words = xprintf("%s %s", text, standard ? FORCES_STANDARD : "");
+    char **const name = xalloc(strlen(words) + 1, sizeof *name), *out = xstrdup("");
+    const int n = collect(words, text, name);
     qsort(name, (size_t)n, sizeof *name, by_name);
     for (int i = 0; i < n; i++) {
         if (i > 0 && strcmp(name[i], name[i - 1]) == 0)
@@ -32,6 +66,30 @@ char *force_names(const char *text)
         out = xstrdup("none");
     }
     xfree(name);
-    xfree(copy);
+    xfree(words);
     return out;
+}
+
+/* Whether the words "a | b | c" hold this one. */
+static bool is_listed(const char *allowed, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *at = strstr(allowed, word); at; at = strstr(at + 1, word))
+        if ((at == allowed || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0'))
+            return true;
+    return false;
+}
+
+char *force_names_wrong(const char *text, const char *allowed)
+{
+    char *const words = xstrdup(text), *rest = NULL, *wrong = NULL;
+    for (char *word = strtok_r(words, between, &rest); word && !wrong;
+         word = strtok_r(NULL, between, &rest)) {
+        const char *const name = word[0] == '-' ? word + 1 : word;
+        if (strcmp(word, "none") != 0 && strcmp(word, "standard") != 0 &&
+            (name[0] == '\0' || strchr(name, '|') || !is_listed(allowed, name)))
+            wrong = xstrdup(name);
+    }
+    xfree(words);
+    return wrong;
 }

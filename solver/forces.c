@@ -11,7 +11,10 @@ void forces_read(struct sim *s, struct scene *scene)
     for (int f = 0; forces[f]; f++) {
         if (forces[f]->read)
             forces[f]->read(scene);
-        o->any = true;
+        o->pressure += forces[f]->of_pressure;
+        o->viscous += forces[f]->of_viscous;
+        o->weight += forces[f]->of_weight;
+        o->any = o->any || forces[f]->act || forces[f]->added_mass || forces[f]->spin_rate;
         o->spins = o->spins || forces[f]->spin_rate;
         if (forces[f]->added_mass)
             o->added += forces[f]->added_mass();

@@ -18,7 +18,9 @@ struct sim;
 struct scene;
 
 struct fluid_forces {
-    bool any, spins; /* some force; some torque */
+    double pressure, viscous,
+        weight;      /* what a grain takes of V (f - grad p), V div tau, V rho g */
+    bool any, spins; /* some other force; some torque */
     double added;    /* m_a over rho V */
     bool due;        /* F_x of this step is still to be made */
     double *u[3],

@@ -35,19 +35,17 @@ static void log_grains(FILE *out, const struct sim *s)
 static void log_forces(FILE *out, const struct sim *s)
 {
     const struct coupling *const c = &s->coupling;
-    const char *const word[2] = {"off", "on"};
     if (s->fluid.equation)
         fprintf(out, "  momentum  form %s\n", s->fluid.equation);
-    fprintf(
-        out,
-        "  fluid     %d x %d x %d cells, %g kg/m3, %g Pa s, step %g s = %d steps of the "
-        "grains\n"
-        "  coupling  %s; forces on grains: drag %s, pressure gradient %s, viscous stress %s, "
-        "buoyancy %s\n",
-        s->grid.n[0], s->grid.n[1], s->grid.n[2], s->fluid.rho, s->fluid.mu, s->fluid.dt,
-        s->run.substeps, c->ways == 2 ? "two-way" : "one-way",
-        c->implicit ? "implicit" : "explicit", word[c->pressure_gradient], word[c->viscous],
-        word[c->buoyancy]);
+    fprintf(out,
+            "  fluid     %d x %d x %d cells, %g kg/m3, %g Pa s, step %g s = %d steps of the "
+            "grains\n"
+            "  coupling  %s; drag on grains %s%s\n",
+            s->grid.n[0], s->grid.n[1], s->grid.n[2], s->fluid.rho, s->fluid.mu, s->fluid.dt,
+            s->run.substeps, c->ways == 2 ? "two-way" : "one-way",
+            c->implicit ? "implicit" : "explicit",
+            s->fluid.whole_pressure ? ", over the fluid fraction for pressure and viscous force"
+                                    : "");
 }
 
 void log_start(FILE *out, const struct sim *s)

@@ -40,34 +40,36 @@ static const struct key modules_keys[] = {
     {"modules", "drag", KEY_TEXT, "", "", "none", "what resists the flow?"},
     {"modules", "porosity", KEY_TEXT, "", "", "none", "what does the grid see of a grain?"},
     {"modules", "fluid", KEY_TEXT, "", "", "none", "what flows?"},
-    {"modules", "forces", KEY_TEXT, "", "", "none",
-     "what else does the fluid do to grains? as many of forces/ as wanted"},
+    {"modules", "forces", KEY_TEXT, "", "", "standard",
+     "what else does the fluid do to grains? as many of forces/ as wanted; standard, with a "
+     "fluid: " FORCES_STANDARD "; -NAME takes one away, none all"},
     {"modules", "reference", KEY_TEXT, "", "", "none", "what should come out?"},
     {0},
 };
 
 char *forces_built(void)
 {
-    char *text = xstrdup("");
+    char *text = xstrdup("none");
     for (int f = 0; forces[f]; f++) {
         char *const longer = xprintf("%s %s", text, forces[f]->about.name);
         xfree(text);
         text = longer;
     }
-    char *const out = force_names(text);
+    char *const out = force_names(text, false);
     xfree(text);
     return out;
 }
 
 static void declare_forces(struct scene *s)
 {
-    char *const asked = force_names(scene_text(s, "modules", NULL, "forces"));
+    const bool fluid = strcmp(fluid_about.name, "none") != 0;
+    char *const asked = force_names(scene_text(s, "modules", NULL, "forces"), fluid);
     char *const built = forces_built();
     if (strcmp(asked, built) != 0)
         scene_error(s, "modules", NULL, "forces",
                     "this binary was built with %s; ./run.sh builds what the scene asks for",
                     built);
-    if (strcmp(built, "none") != 0 && strcmp(fluid_about.name, "none") == 0)
+    if (strcmp(built, "none") != 0 && !fluid)
         scene_error(s, "modules", NULL, "forces", "there is no fluid to exert them");
     for (int f = 0; forces[f]; f++)
         scene_declare(s, forces[f]->keys);

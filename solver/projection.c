@@ -200,9 +200,10 @@ static void stress_row(struct sim *s, int a, const double *change, int j, int k)
     double *const restrict G = s->fluid.stress[a] + at;
     const double *const restrict p = s->fluid.p + at, *const restrict dp = change + at;
     const double inv = 1.0 / g->h[a], drive = component(s->flow.gradient, a);
-    const double viscous = s->coupling.viscous ? 1.0 : 0.0;
+    const double viscous = s->coupling.forces.viscous, pressure = s->coupling.forces.pressure;
     for (int i = inside_first(s, a, 0); i <= g->n[0]; i++)
-        G[i] = viscous * G[i] + drive - (p[i] + dp[i] - p[i - sa] - dp[i - sa]) * inv;
+        G[i] =
+            viscous * G[i] + pressure * (drive - (p[i] + dp[i] - p[i - sa] - dp[i - sa]) * inv);
 }
 
 /* On an open side as inside; where the velocity is given, what balances the drag: 0 on a wall. */
@@ -212,16 +213,16 @@ static void stress_on_side(struct sim *s, int side, const double *dp)
     const int a = side / 2, end = side % 2;
     const enum side_kind kind = s->domain.side[side].kind;
     const bool open = side_open(&s->domain, side), inflow = kind == SIDE_INFLOW;
-    const double viscous = s->coupling.viscous ? 1.0 : 0.0;
+    const double viscous = s->coupling.forces.viscous, pressure = s->coupling.forces.pressure;
     for (int n = 0; n < open_faces(s, a); n++) {
         const int c = open_at(s, a, end, n).c;
         const double g = f->whole_pressure ? 1.0 : f->eps_f[a][c];
         double *const G = &f->stress[a][c];
         if (open)
-            *G = viscous * *G - fluid_gradient(s, f->p, a, end, c) -
-                 fluid_gradient(s, dp, a, end, c);
+            *G = viscous * *G - pressure * (fluid_gradient(s, f->p, a, end, c) +
+                                            fluid_gradient(s, dp, a, end, c));
         else
-            *G = inflow ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / g : 0.0;
+            *G = inflow ? pressure * (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / g : 0.0;
     }
 }
 

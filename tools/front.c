@@ -43,7 +43,7 @@ static const struct folder folders[] = {
 };
 
 /* A scene may name several of these. */
-static const struct folder force_folder = {"forces", "FORCES", "forces", "none",
+static const struct folder force_folder = {"forces", "FORCES", "forces", "standard",
                                            "what else does the fluid do to a grain?"};
 
 enum { FOLDERS = sizeof folders / sizeof folders[0] };
@@ -87,26 +87,26 @@ static char *answers_allowed(const char *path)
     return text;
 }
 
-/* Whether the words "a | b | c" hold this one. */
-static bool is_listed(const char *allowed, const char *word)
+/* The forces that the scene asks for, each checked; in make's notation. Free with xfree. */
+static char *read_forces(struct scene *scene, const char *allowed, bool fluid)
 {
-    const size_t n = strlen(word);
-    for (const char *at = strstr(allowed, word); at; at = strstr(at + 1, word))
-        if ((at == allowed || at[-1] == ' ') && (at[n] == ' ' || at[n] == '\0'))
-            return true;
-    return false;
+    const char *const text = scene_text(scene, "modules", NULL, "forces");
+    char *const wrong = force_names_wrong(text, allowed);
+    if (wrong)
+        scene_error(scene, "modules", NULL, "forces", "%s is none of: %s", wrong, allowed);
+    xfree(wrong);
+    return force_names(text, fluid);
 }
 
-/* The forces that the scene asks for, each checked; in make's notation. Free with xfree. */
-static char *read_forces(struct scene *scene, const char *allowed)
+/* Has the answer that was chosen another name than "none"? */
+static bool has_fluid(struct scene *scene)
 {
-    char *const names = force_names(scene_text(scene, "modules", NULL, "forces"));
-    char *const copy = xstrdup(names), *rest = NULL;
-    for (char *word = strtok_r(copy, "+", &rest); word; word = strtok_r(NULL, "+", &rest))
-        if (strcmp(word, "none") != 0 && (strchr(word, '|') || !is_listed(allowed, word)))
-            scene_error(scene, "modules", NULL, "forces", "%s is none of: %s", word, allowed);
-    xfree(copy);
-    return names;
+    struct dirent **list;
+    const int n = list_answers("solver/fluid", &list);
+    const int chosen = scene_choice(scene, "modules", NULL, "fluid");
+    const bool fluid = chosen >= 0 && chosen < n && strcmp(list[chosen]->d_name, "none") != 0;
+    free_answers(list, n);
+    return fluid;
 }
 
 /* Reads [modules] only; the other sections are for the binary to judge. */
@@ -121,10 +121,10 @@ static int print_slots(int argc, char **argv)
         keys[i] = (struct key){"modules",  folders[i].slot,     KEY_CHOICE,     "",
                                allowed[i], folders[i].standard, folders[i].path};
     }
-    keys[FOLDERS] = (struct key){"modules", "forces", KEY_TEXT, "", "", "none", "forces"};
+    keys[FOLDERS] = (struct key){"modules", "forces", KEY_TEXT, "", "", "standard", "forces"};
     char *const all_forces = answers_allowed("forces");
     scene_declare(scene, keys);
-    char *const asked = read_forces(scene, all_forces);
+    char *const asked = read_forces(scene, all_forces, has_fluid(scene));
     for (int i = 0; i < FOLDERS; i++)
         choice[i] = scene_choice(scene, "modules", NULL, folders[i].slot);
     scene_finish_section(scene, "modules");

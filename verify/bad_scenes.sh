@@ -95,7 +95,7 @@ whole() {
 bad="$tmp/bad.ini"
 edit "unknown key" 's/^viscosity/viscositty/' "$bad:25: fluid.viscositty = 1 mPa s: no such key \(did you mean fluid.viscosity\?\)"
 edit "unknown section" 's/^\[flow\]/[flwo]/' "$bad:27: \[flwo\]: no such section \(did you mean flow\?\)"
-with "form c gives no pressure force" "coupling.viscous = on: fluid.form = c has it in the drag" fluid.form=c coupling.viscous=on
+with "form c gives no viscous force" "modules.forces = viscous: fluid.form = c has viscous in the drag" fluid.form=c modules.forces=viscous
 with "a table that is not there" "flow.table = nowhere.csv: no such file" flow.table=nowhere.csv
 with "a rate along a side" "flow.rate = 0 0 1 mm/s: drives periodic directions only" "flow.rate=0 0 1 mm/s"
 with "a rate and a gradient" "contradicts flow.rate" "flow.rate=1 0 0 mm/s" "flow.pressure_gradient=1 0 0 Pa/m"
@@ -185,6 +185,7 @@ whole "poisson out of range" "command line: material beads.poisson = 0.6: must l
 whole "module by a path" "modules.drag = ../drag/ergun: must be one of" "$tmp/good.ini" modules.drag=../drag/ergun
 whole "force that does not exist" "modules.forces = saffman, safman: safman is none of: brownian" "$tmp/good.ini" "modules.forces=saffman, safman"
 whole "force by a path" "modules.forces = ../drag/ergun: ../drag/ergun is none of: brownian" "$tmp/good.ini" modules.forces=../drag/ergun
+whole "force taken away that does not exist" "modules.forces = -bouyancy: bouyancy is none of: brownian" "$tmp/good.ini" modules.forces=-bouyancy
 whole "force without a fluid" "modules.forces = saffman: there is no fluid to exert them" scenes/bounce.ini modules.forces=saffman
 whole "key of a force that is not asked for" "forces\\.saffman|\\[forces\\]: no such section" "$tmp/good.ini" forces.saffman=mei
 whole "slot that does not exist" "modules.drug = ergun: no such key \(did you mean modules.drag\?\)" "$tmp/good.ini" modules.drug=ergun

@@ -3,12 +3,36 @@
 #define HARNESS_H
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 #include "../solver/contact_loop.h"
 #include "../solver/feasibility.h"
+#include "../solver/force_names.h"
 #include "../solver/modules.h"
 #include "../solver/sim.h"
 #include "../solver/step.h"
+
+/* What a scene says to ask for the forces linked in. Free with xfree. */
+static inline char *forces_asked(void)
+{
+    char *const built = forces_built(), *const usual = force_names("standard", true);
+    char *const words = xprintf("%s+%s", built, usual), *rest = NULL,
+                *text = xstrdup("standard");
+    for (char *word = strtok_r(words, "+", &rest); word; word = strtok_r(NULL, "+", &rest)) {
+        const bool in = force_names_given(built, word), ever = force_names_given(usual, word);
+        char *const longer = xprintf("%s%s%s", text,
+                                     in == ever ? ""
+                                     : in       ? " "
+                                                : " -",
+                                     in == ever ? "" : word);
+        xfree(text);
+        text = longer;
+    }
+    xfree(words);
+    xfree(usual);
+    xfree(built);
+    return text;
+}
 
 /* A started run; ends the test where the scene is refused. The scene may be freed at once. */
 static inline struct sim *sim_from(const char *text)
@@ -23,9 +47,9 @@ static inline struct sim *sim_from(const char *text)
     char *answers[SLOTS + 1]; /* the scene asks for what the test links */
     for (int i = 0; i < SLOTS; i++)
         answers[i] = xprintf("modules.%s=%s", slots[i].name, slots[i].about->name);
-    char *const built = forces_built();
-    answers[SLOTS] = xprintf("modules.forces=%s", built);
-    xfree(built);
+    char *const asked = forces_asked();
+    answers[SLOTS] = xprintf("modules.forces=%s", asked);
+    xfree(asked);
     struct scene *const scene = scene_load(path, SLOTS + 1, answers);
     for (int i = 0; i <= SLOTS; i++)
         xfree(answers[i]);

@@ -220,7 +220,7 @@ static void check_direction(int a, const char *keys, double K)
         "[grains bed]\ndiameter = 1 mm\ndensity = 2650 kg/m3\nfill = unit_cell\nspacing = 1 "
         "mm\n"
         "frozen = yes\n[domain]\nsize = 4 6 5 mm\ncells = 4 6 5\n%s[fluid]\ndensity = 1000 "
-        "kg/m3\nviscosity = 1 mPa s\ndt = 1 s\n%s[coupling]\nbuoyancy = off\n[run]\nend = 1e9 "
+        "kg/m3\nviscosity = 1 mPa s\ndt = 1 s\n%s[run]\nend = 1e9 "
         "s\n",
         sides[a], keys);
     struct sim *const s = sim_from(text);

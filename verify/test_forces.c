@@ -227,7 +227,12 @@ static void visit(const char *name, void *object)
     if (!f)
         return;
     check(strcmp(f->about.name, name) == 0, "%s: its name is its file's", name);
-    check(f->act || f->added_mass || f->spin_rate, "%s does something", name);
+    check(f->act || f->added_mass || f->spin_rate || f->of_pressure != 0.0 ||
+              f->of_viscous != 0.0 || f->of_weight != 0.0,
+          "%s does something", name);
+    for (const char *word = strstr(FORCES_STANDARD, name); word; word = NULL)
+        check(!f->act && !f->returned, "%s: a standard force, that the fluid's equation holds",
+              name);
     read_keys(f, NULL);
     test_contract(f);
     for (size_t i = 0; i < sizeof special / sizeof special[0]; i++)

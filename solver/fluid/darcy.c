@@ -385,10 +385,11 @@ void fluid_step(struct sim *s)
     memcpy(f->p, w->p_new, bytes);
     for (int a = 0; a < 3; a++)
         for (size_t c = 0; c < g->total; c++)
-            f->stress[a][c] =
-                f->eps_f[a][c] > 0.0
-                    ? (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) / f->eps_f[a][c]
-                    : 0.0;
+            f->stress[a][c] = f->eps_f[a][c] > 0.0
+                                  ? s->coupling.forces.pressure *
+                                        (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) /
+                                        f->eps_f[a][c]
+                                  : 0.0;
     fluid_guard(s, false);
 }
 

@@ -26,8 +26,10 @@
 #include "fluid.h"
 
 #include "../diffusion.h"
+#include "../../forces/force.h"
 #include "../feasibility.h"
 #include "../fluid_state.h"
+#include "../force_names.h"
 #include "../momentum.h"
 #include "../porosity_rate.h"
 #include "../projection.h"
@@ -113,12 +115,13 @@ static void check_sides(struct sim *s, struct scene *scene)
 
 static void check_forces(struct scene *scene, enum form form)
 {
-    static const char *const keys[] = {"pressure_gradient", "viscous"};
-    for (int i = 0; i < 2 && form == FORM_C; i++)
-        if (scene_given(scene, "coupling", NULL, keys[i]) &&
-            scene_choice(scene, "coupling", NULL, keys[i]) == 1)
-            scene_error(scene, "coupling", NULL, keys[i],
-                        "fluid.form = c has it in the drag, which carries 1/eps; leave it out");
+    const char *const text = scene_text(scene, "modules", NULL, "forces");
+    for (int i = 0; forces[i] && form == FORM_C; i++)
+        if ((forces[i]->of_pressure != 0.0 || forces[i]->of_viscous != 0.0) &&
+            force_names_given(text, forces[i]->about.name))
+            scene_error(scene, "modules", NULL, "forces",
+                        "fluid.form = c has %s in the drag, which carries 1/eps; leave it out",
+                        forces[i]->about.name);
 }
 
 static void create_fields(struct sim *s)

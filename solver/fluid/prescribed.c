@@ -8,8 +8,9 @@
  *   vortex        u = omega x (x - centre)         a rigid rotation about the box's centre
  *   taylor_green  u = U_x (sin a cos b, -cos a sin b), a = 2 pi x/L_x, b = 2 pi y/L_y
  *   file          that of fluid.file
- * (superficial, as the fluid of a one-way coupling is) and may swing as cos(2 pi t/period). The fluid's stress on the grains is that of the flow as
- * it goes, G = rho Du/Dt [MaxeyRiley83], by central differences. */
+ * (superficial, as the fluid of a one-way coupling is) and may swing as cos(2 pi t/period). The fluid's
+ * stress on the grains is that of the flow as it goes, G = rho Du/Dt [MaxeyRiley83], by central
+ * differences; it is not known in parts, and all of it counts as forces/pressure_gradient.c. */
 #include "fluid.h"
 
 #include <netcdf.h>
@@ -239,7 +240,7 @@ static void acceleration(struct sim *s, int a, double rate)
                                                       u[b][c + sb - sa]);
                     sum += v * (u[a][c + sb] - u[a][c - sb]) / (2.0 * g->h[b]);
                 }
-                s->fluid.stress[a][c] = s->fluid.rho * sum;
+                s->fluid.stress[a][c] = s->coupling.forces.pressure * s->fluid.rho * sum;
             }
     if (!s->domain.periodic[a]) /* the last face as the one before */
         for (int k = 1; k <= g->n[(a + 2) % 3]; k++)
