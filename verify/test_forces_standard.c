@@ -43,9 +43,8 @@ static void test_each(char form)
         o->weight = k & 4 ? -1.0 : 0.0;
         step(s);
         const vec3 rest = v3_sub(s->grains.load[0], s->coupling.drag[0]);
-        char *const what =
-            xprintf("form %c:%s%s%s", form, k & 1 ? " pressure" : "", k & 2 ? " viscous" : "",
-                    k & 4 ? " buoyancy" : "");
+        char *const what = xprintf("form %c:%s%s%s", form, k & 1 ? " pressure" : "",
+                                   k & 2 ? " viscous" : "", k & 4 ? " buoyancy" : "");
         check_abs(rest.x / (V * f), whole * (o->pressure - o->viscous), 1e-9, what);
         check_abs(rest.z / (rho * V * g), -o->weight, 1e-12, "  upwards");
         xfree(what);
@@ -90,7 +89,8 @@ static void test_names(void)
     test_name("none + buoyancy", true, "buoyancy");
     test_name("-buoyancy -viscous -pressure_gradient", true, "none");
     test_name("saffman", false, "saffman");
-    check(force_names_given("a, viscous", "viscous") && !force_names_given("viscous_torque", "viscous"),
+    check(force_names_given("a, viscous", "viscous") &&
+              !force_names_given("viscous_torque", "viscous"),
           "a name is a whole word");
     char *const wrong = force_names_wrong("none -a b+c", "a | b | cc");
     check(wrong && strcmp(wrong, "c") == 0, "the one that is none of them: %s", wrong);
