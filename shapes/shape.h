@@ -1,15 +1,39 @@
 /* shapes/shape.h - contract: what is a grain?
  *
- * To add a shape: copy sphere.c to shapes/NAME.c. Every answer exports exactly the symbols
- * below. The contact loop finds pairs whose bounding spheres come close; the shape says where
- * and how deep they overlap, for a block of pairs at a time. Called from parallel loops. */
+ * To add a shape: copy sphere.c (or clump.c) to shapes/NAME.c. Every answer exports shape_about,
+ * shape_keys and `shape`, a table of what it can do; NULL where it has nothing to say. No other
+ * file changes.
+ *
+ * A grain has a centre (of mass), an orientation (quaternion, body to lab) and a size, the radius
+ * of the sphere of its volume: a species' `diameter` is the volume-equivalent one, and its grains
+ * are alike in form. So a shape describes each species once, in the body's frame - origin at the
+ * centre of mass, axes the principal ones - with the size as the unit of length; a grain's own
+ * numbers are these times pose.size.
+ *
+ * The search finds pairs whose bounding spheres come close: a slot is such a pair. From there the
+ * contact loop takes one of two paths, which the shape picks by `path`:
+ *   contact_spheres  one contact a slot at most, found for a block of slots by `overlaps`; no
+ *                    orientation (spheres, discs);
+ *   contact_points   `points` gives 0 to `most` points of contact for a pair; all of them go through
+ *                    the same laws. The grains have an orientation and a full inertia.
+ * Only the path that the shape names is linked.
+ *
+ * All functions but init and free are called from parallel loops: parameters are written in init
+ * alone, scratch is on the stack. Geometry is in double whatever the precision of the loop. The
+ * same input must give the same bits. */
 #ifndef SHAPE_H
 #define SHAPE_H
 
 #include "../contact/touch.h"
 #include "../solver/grains.h"
+#include "../solver/rotation.h"
+#include "../solver/walls/wall_kind.h"
 
 struct wall;
+struct contact_path;
+extern const struct contact_path contact_spheres, contact_points;
+
+/* ---- contact_spheres ---- */
 
 /* Candidate pairs, up to TOUCH; for a wall contact j is i. */
 struct candidates {
@@ -26,17 +50,133 @@ struct levers {
     real jx[TOUCH], jy[TOUCH], jz[TOUCH]; /* m, point - x_j (0 for a wall) */
 };
 
+/* ---- contact_points ---- */
+
+/* Where a grain is. */
+struct shape_pose {
+    int species;
+    double size;      /* m */
+    vec3 centre;      /* m, as seen from the pair's own origin, x_i: 0 for i */
+    struct quat q;    /* body to lab */
+    struct mat3 turn; /* the same */
+};
+
+struct shape_pair {
+    struct shape_pose i, j;
+    double reach; /* m; points with a gap up to this are wanted (negative depth) */
+    real *memory; /* shape.memory reals that are the pair's own, kept from step to step for what
+                     makes the answer faster (a separating direction, a start of an iteration);
+                     zero for a new pair, and now and then zeroed again: the points must not depend
+                     on it beyond round-off. */
+};
+
+struct shape_point {
+    int id; /* >= 0, < 2^22: what touches what (sphere a with sphere b, vertex 3 with face 5),
+                      the same from step to step: by it, the contact finds its memory. Unique within
+                      the pair. A point whose id is new takes over the memory of one that has just
+                      gone, where it stood close by. */
+    double depth; /* m, overlap; negative: a gap */
+    vec3 normal;  /* unit, from j to i */
+    vec3 at;      /* m, place of the contact, as seen from x_i */
+    vec3 from_i,
+        from_j; /* m, of either body a point on the line through `at` along the normal, as
+                            seen from x_i and x_j: where the normal velocity is taken. Mathematically
+                            any will do; the centre of the rounded edge keeps a sphere a sphere to the
+                            last bit */
+    double r_i,
+        r_j;      /* m, radii of curvature, for r_eff of the laws; > 0; r_j = 0: j is flat. For
+                        faces on faces choose what stands for the stiffness wanted, and say so in
+                        the shape's head */
+    double scale; /* m; overlap over this is what run.overlap_max limits */
+};
+
+/* The point at which two balls touch: the rounded vertices, edges and faces of shapes. Centres as
+ * seen from x_i and x_j; `apart` = centre of ball i less centre of ball j. */
+static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, double rj,
+                                                  vec3 apart, int id)
+{
+    const double square = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+    const double inverse = (double)inverse_root((real)square), distance = square * inverse;
+    const double half = 0.5 * (ri + rj - distance);
+    const vec3 n = v3_scale(inverse, apart);
+    return (struct shape_point){.id = id,
+                                .depth = 2.0 * half,
+                                .normal = n,
+                                .at = v3_axpy(ci, half - ri, n),
+                                .from_i = ci,
+                                .from_j = cj,
+                                .r_i = ri,
+                                .r_j = rj,
+                                .scale = ri < rj ? ri : rj};
+}
+
+/* A ball of the species: body's frame, units of size. */
+struct shape_ball {
+    vec3 centre;
+    double radius;
+};
+
+/* An element of a wall with straight edges, as seen by a grain: m, from x_i; in the lab. */
+struct shape_facet {
+    int n; /* corners: 2 an edge, 3, 4; in order */
+    vec3 corner[4];
+};
+
+/* Takes the triangles of a surface, body's frame, units of size; counter-clockwise from outside. */
+struct shape_canvas {
+    void (*triangle)(struct shape_canvas *c, vec3 a, vec3 b, vec3 p);
+};
+
+/* A small part of a species' volume: body's frame, units of size; the volumes of all add up to 4/3
+ * pi. */
+struct shape_part {
+    vec3 at;
+    double volume;
+};
+
+struct shape {
+    const struct contact_path *path;
+    /* Reads the keys of [grains NAME] of every species (g->species, by name), keeps what it needs,
+     * fills form[species] (grains.h; it comes as that of a sphere); what is wrong goes on the scene's
+     * list. NULL: nothing to read. */
+    void (*init)(struct scene *scene, const struct grains *g, struct shape_form *form);
+    void (*free)(void);
+    double (*volume)(double diameter); /* m3; NULL: of the sphere */
+
+    /* contact_spheres: sets depth, normal and levers of each candidate. r_i, r_j and r_eff are
+     * there already, from the bounding radii (r_j = 0 for a wall); a shape whose surface curves
+     * otherwise sets them anew. A pair that does not overlap gets a negative depth (its gap). */
+    void (*overlaps)(const struct grains *g, const struct candidates *c, struct touch *t,
+                     struct levers *l);
+
+    /* contact_points: writes the points of contact of a pair, at most `most` of them (the larger
+     * of both forms' points_most), in a fixed order; returns how many. More than `most`: returns
+     * the number that there are, which stops the run. */
+    int (*points)(const struct shape_pair *p, int most, struct shape_point *out);
+    int memory; /* reals of shape_pair.memory */
+
+    /* The balls by which a species touches walls: their union must reach as far as the body at
+     * every vertex, and a ball must be thicker than overlaps get, since the side of the wall that
+     * its centre is on is its side. *n of them; the array stays. */
+    const struct shape_ball *(*balls)(int species, int *n);
+    /* What the balls miss: points at which the body touches an edge (n = 2) or the whole (n > 2)
+     * of a flat element of a wall elsewhere than with its balls. j is the wall: only `at`, from_i
+     * and r_j = 0 count; ids from 0 on. NULL: nothing. */
+    int (*facet)(const struct shape_pose *i, const struct shape_facet *f, double reach,
+                 int most, struct shape_point *out);
+
+    /* The surface, for pictures. NULL: a sphere. */
+    void (*surface)(int species, struct shape_canvas *c);
+    /* The volume in parts no wider than `spacing` (units of size) or a little more. *n of them in an
+     * array that the caller frees by xfree. NULL: a sphere, which has formulas of its own. */
+    struct shape_part *(*parts)(int species, double spacing, int *n);
+    /* Crosswise sphericity for drag: area of the sphere's section over the area of the body's
+     * shadow along the unit vector `flow` (body's frame). NULL: 1. */
+    double (*crosswise)(int species, vec3 flow);
+};
+
 extern const struct about shape_about;
 extern const struct key shape_keys[]; /* of section "grains" */
-
-/* Sets radius (bounding), volume, mass and inertia of grain i from its species' diameter and
- * density. */
-void shape_body(struct grains *g, int i, double diameter, double density);
-
-/* Sets depth, normal and levers of each candidate. r_i, r_j and r_eff are there already, from the
- * bounding radii (r_j = 0 for a wall); a shape whose surface curves otherwise sets them anew. A
- * pair that does not overlap gets a negative depth (its gap). */
-void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
-                    struct levers *l);
+extern const struct shape shape;
 
 #endif

@@ -1,8 +1,6 @@
 /* shapes/sphere.c - a grain is a sphere. The contact point lies in the middle of the overlap.
- * Also the template for other shapes. */
+ * Also the template for other shapes of one contact a pair. */
 #include "shape.h"
-
-#define PI 3.14159265358979323846
 
 const struct about shape_about = {.name = "sphere",
                                   .summary = "a sphere of the given diameter",
@@ -11,18 +9,8 @@ const struct about shape_about = {.name = "sphere",
                                   .range = "always"};
 const struct key shape_keys[] = {{0}};
 
-void shape_body(struct grains *g, int i, double diameter, double density)
-{
-    const double r = 0.5 * diameter;
-    g->radius[i] = r;
-    g->volume[i] = PI / 6.0 * diameter * diameter * diameter;
-    g->mass[i] = density * g->volume[i];
-    g->inv_mass[i] = 1.0 / g->mass[i];
-    g->inv_inertia[i] = 2.5 / (g->mass[i] * r * r);
-}
-
-void shape_overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
-                    struct levers *l)
+static void overlaps(const struct grains *g, const struct candidates *c, struct touch *t,
+                     struct levers *l)
 {
     (void)g;
 #pragma omp simd
@@ -44,3 +32,5 @@ void shape_overlaps(const struct grains *g, const struct candidates *c, struct t
         l->jz[k] = arm_j * t->nz[k];
     }
 }
+
+const struct shape shape = {.path = &contact_spheres, .overlaps = overlaps};

@@ -1,13 +1,12 @@
-/* contact_block.c - shape and laws over one block of contacts. */
+/* contact_block.c - contacts of spheres: one per slot, worked through shape and laws in blocks. */
 #include "contact_block.h"
 
 #include <string.h>
-#include "../contact/bond/bond.h"
-#include "../contact/cohesion/cohesion.h"
-#include "../contact/contact.h"
-#include "../contact/lubrication/lubrication.h"
-#include "../contact/rolling/rolling.h"
+#include "contact_laws.h"
 #include "contact_loop.h"
+#include "contact_path.h"
+#include "contact_view.h"
+#include "contact_walls.h"
 #include "sim.h"
 #include "turn.h"
 
@@ -141,38 +140,6 @@ static void reduce(struct block *b)
     }
 }
 
-/* Velocities at the contact point, from those of the centres, spins and levers. */
-static void velocities(struct block *b)
-{
-    struct touch *const t = &b->t;
-    const struct levers *const l = &b->l;
-#pragma omp simd
-    for (int c = 0; c < t->n; c++) {
-        const real px = b->px[c], py = b->py[c], pz = b->pz[c];
-        const real qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
-        t->vx[c] = fma(py, l->iz[c],
-                       fma(-pz, l->iy[c], fma(-qy, l->jz[c], fma(qz, l->jy[c], t->vx[c]))));
-        t->vy[c] = fma(pz, l->ix[c],
-                       fma(-px, l->iz[c], fma(-qz, l->jx[c], fma(qx, l->jz[c], t->vy[c]))));
-        t->vz[c] = fma(px, l->iy[c],
-                       fma(-py, l->ix[c], fma(-qx, l->jy[c], fma(qy, l->jx[c], t->vz[c]))));
-        t->wx[c] = px - qx;
-        t->wy[c] = py - qy;
-        t->wz[c] = pz - qz;
-        t->vn[c] = fma(t->nx[c], b->vx[c], fma(t->ny[c], b->vy[c], t->nz[c] * b->vz[c]));
-    }
-}
-
-/* The force of a step stands for half a step before and after it. A contact that began within the
- * step was on for depth/|v_n| before: the part of a whole step that its dashpot acts for. Without
- * this the restitution is first order in the step. */
-static real first_part(const struct touch *t, int c)
-{
-    const real dt = (real)t->dt;
-    const real since = t->vn[c] < 0.0 ? t->depth[c] / (-t->vn[c] * dt) : 0.5;
-    return fmin(fmax(since, 0.0), 1.0) + 0.5;
-}
-
 static void starts(struct block *b, const unsigned char *live)
 {
     struct touch *const t = &b->t;
@@ -183,7 +150,7 @@ static void starts(struct block *b, const unsigned char *live)
         new |= (live[b->slot[c]] != LIVE_OVERLAP) & (t->depth[c] > 0.0);
     for (int c = 0; c < b->n && new; c++)
         if (live[b->slot[c]] != LIVE_OVERLAP && t->depth[c] > 0.0)
-            t->start[c] = first_part(t, c);
+            t->start[c] = laws_first_part(t, c);
 }
 
 /* The memory of a slot is a number of fours: taken as such, then turned. */
@@ -202,119 +169,6 @@ static void load_memory(struct block *b, const real *memory, int rows)
             h[3][c] = row[4 * c + 3];
         }
     }
-}
-
-/* What laws ask for only some of the time. */
-static void extras(const struct grains *g, struct block *b, unsigned needs)
-{
-    struct touch *const t = &b->t;
-    if (needs & TOUCH_SPIN)
-        for (int c = 0; c < t->n; c++) {
-            t->sx[c] = b->px[c];
-            t->sy[c] = b->py[c];
-            t->sz[c] = b->pz[c];
-        }
-    if (needs & TOUCH_INERTIA)
-        for (int c = 0; c < t->n; c++) {
-            const int i = b->c.i[c], j = b->c.j[c];
-            const bool wall = b->c.wall[c] != NULL;
-            const double ri = (double)t->r_i[c], rj = (double)t->r_j[c];
-            double inverse = 0.0;
-            if (g->inv_mass[i] > 0.0)
-                inverse += 1.0 / (1.0 / g->inv_inertia[i] + g->mass[i] * ri * ri);
-            if (!wall && g->inv_mass[j] > 0.0)
-                inverse += 1.0 / (1.0 / g->inv_inertia[j] + g->mass[j] * rj * rj);
-            t->inertia[c] = (real)(1.0 / inverse);
-        }
-    if (needs & TOUCH_COUPLES) {
-        memset(t->mx, 0, sizeof t->mx);
-        memset(t->my, 0, sizeof t->my);
-        memset(t->mz, 0, sizeof t->mz);
-    }
-}
-
-static void apply_laws(struct block *b)
-{
-    real(*h)[TOUCH] = b->history;
-    contact_forces(&b->t, h);
-    h += contact_history;
-    cohesion_forces(&b->t, h);
-    h += cohesion_history;
-    lubrication_forces(&b->t, h);
-    h += lubrication_history;
-    rolling_moments(&b->t, h);
-    h += rolling_history;
-    bond_forces(&b->t, h);
-}
-
-static double energy(struct block *b, double reach)
-{
-    double sum = 0.0;
-    real(*h)[TOUCH] = b->history;
-    contact_energy(&b->t, h);
-    h += contact_history;
-    cohesion_energy(&b->t, h);
-    h += cohesion_history;
-    lubrication_energy(&b->t, h);
-    h += lubrication_history;
-    rolling_energy(&b->t, h);
-    h += rolling_history;
-    bond_energy(&b->t, h);
-    for (int c = 0; c < b->n; c++)
-        if ((double)b->t.depth[c] > -reach)
-            sum += b->t.energy[c];
-    return sum;
-}
-
-/* Forces and torques into rows: force and torque on i; torque on j. */
-static inline __attribute__((always_inline)) void pack(struct block *b, bool couples)
-{
-    const struct touch *const t = &b->t;
-    const struct levers *const l = &b->l;
-    const real8 zero = {0.0};
-    for (int c = 0; c < t->n; c += 8) {
-        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
-        const real8 mx = couples ? take8(&t->mx[c]) : zero,
-                    my = couples ? take8(&t->my[c]) : zero;
-        const real8 mz = couples ? take8(&t->mz[c]) : zero;
-        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
-        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
-        real8 i[8] = {fx,
-                      fy,
-                      fz,
-                      zero,
-                      iy * fz - iz * fy + mx,
-                      iz * fx - ix * fz + my,
-                      ix * fy - iy * fx + mz,
-                      zero};
-        real8 j[8] = {-fx,
-                      -fy,
-                      -fz,
-                      zero,
-                      jz * fy - jy * fz - mx,
-                      jx * fz - jz * fx - my,
-                      jy * fx - jx * fy - mz,
-                      zero};
-        turn8(i);
-        turn8(j);
-        for (int k = 0; k < 8; k++) {
-            put8(b->on[0][c + k], i[k]);
-            put8(b->on[1][c + k], j[k]);
-        }
-    }
-}
-
-static inline double8 wide(const real row[8])
-{
-    real8 a;
-    memcpy(&a, row, sizeof a);
-    return __builtin_convertvector(a, double8);
-}
-
-static inline double4 force_of(const struct block *b, int c)
-{
-    const real *const f = b->on[0][c];
-    return (double4){(double)f[0], (double)f[1], (double)f[2], 0.0};
 }
 
 static void guard(const struct block *b, real most, struct report *r)
@@ -365,8 +219,8 @@ static void add(const struct block *b, const int *restrict to, const struct targ
     struct sums *const own = target->sums - target->first, *const all = target->sums;
     for (int start = 0; start < STRIDE; start++)
         for (int c = start; c < b->n; c += STRIDE) {
-            own[b->c.i[c]].both += wide(b->on[0][c]);
-            all[to[b->slot[c]]].both += wide(b->on[1][c]);
+            own[b->c.i[c]].both += laws_wide(b->on[0][c]);
+            all[to[b->slot[c]]].both += laws_wide(b->on[1][c]);
         }
 }
 
@@ -374,7 +228,7 @@ static void add(const struct block *b, const int *restrict to, const struct targ
 static void add_walls(const struct block *b, const struct target *target)
 {
     for (int c = 0; c < b->n; c++) {
-        const double8 on = wide(b->on[0][c]);
+        const double8 on = laws_wide(b->on[0][c]);
         const vec3 turn = v3_cross(b->arm[c], v3(on[0], on[1], on[2]));
         struct sums *const wall = &target->wall[b->wall[c]];
         target->sums[b->c.i[c] - target->first].both += on;
@@ -387,9 +241,9 @@ static void add_skeleton(const struct grains *g, const struct block *b, struct r
 {
     for (int c = 0; c < b->n; c++) {
         if (g->inv_mass[b->c.i[c]] == 0.0)
-            r->skeleton += force_of(b, c);
+            r->skeleton += laws_force(b, c);
         else if (g->inv_mass[b->c.j[c]] == 0.0)
-            r->skeleton -= force_of(b, c);
+            r->skeleton -= laws_force(b, c);
     }
 }
 
@@ -397,75 +251,37 @@ static void add_skeleton(const struct grains *g, const struct block *b, struct r
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
     const double reach = s->neighbours.reach;
-    r->energy += energy(b, reach);
+    r->energy += laws_energy(b, reach);
     for (int c = 0; c < b->n; c++) {
         const double depth = (double)b->t.depth[c], ri = (double)b->t.r_i[c];
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;
         r->touching += depth > 0.0;
         r->overlap = fmax(r->overlap, depth / fmin(ri, rj));
         if (s->contacts->watched)
-            s->contacts->seen[b->walls][b->slot[c]] = force_of(b, c);
-    }
-}
-
-/* Notes the bonds that broke; put in order where they are read. */
-static void note_broken(struct sim *s, const struct block *b, const struct slots *l,
-                        double time)
-{
-    const struct grains *const g = &s->grains;
-    for (int c = 0; c < b->n; c++) {
-        if (b->t.broke[c] == 0)
-            continue;
-        const vec3 arm = v3((double)b->l.ix[c], (double)b->l.iy[c], (double)b->l.iz[c]);
-        const int i = b->c.i[c];
-        const struct broken bond = {.time = time,
-                                    .point = v3_add(g->pos[i], arm),
-                                    .i = g->id[i],
-                                    .j =
-                                        b->walls ? -1 - l->other[b->slot[c]] : g->id[b->c.j[c]],
-                                    .mode = b->t.broke[c]};
-#pragma omp critical(note_broken)
-        {
-            struct break_list *const list = &s->contacts->broken;
-            if (list->n == list->room) {
-                const int room = 2 * list->room + 64;
-                list->bond =
-                    xrealloc(list->bond, (size_t)list->room, (size_t)room, sizeof *list->bond);
-                list->room = room;
-            }
-            list->bond[list->n++] = bond;
-        }
+            ((double4 *)s->contacts->seen[b->walls])[b->slot[c]] = laws_force(b, c);
     }
 }
 
 /* From overlap to forces; everything that is asked of the bodies is in the block. */
 static void work(struct sim *s, struct block *b, struct slots *l, const struct target *to)
 {
-    const unsigned needs = rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
     b->t.dt = s->run.dt;
     b->t.time = to->time;
-    shape_overlaps(&s->grains, &b->c, &b->t, &b->l);
-    velocities(b);
+    shape.overlaps(&s->grains, &b->c, &b->t, &b->l);
+    laws_velocities(b);
     starts(b, l->live);
     load_memory(b, l->memory, s->neighbours.rows);
-    extras(&s->grains, b, needs);
-    if (bond_history > 0)
-        memset(b->t.broke, 0, sizeof b->t.broke);
-    apply_laws(b);
-    if (bond_history > 0)
-        note_broken(s, b, l, to->time);
+    laws_apply(s, b);
+    laws_note_broken(s, b, l, to->time);
     keep(s, b, l);
-    if (needs & TOUCH_COUPLES)
-        pack(b, true);
-    else
-        pack(b, false);
+    laws_pack(b);
     guard(b, (real)s->run.overlap_max, to->report);
     if (to->asked)
         report_all(s, b, to->report);
 }
 
-void block_work(struct sim *s, struct block *b, const int *slot, int count,
-                const struct target *to)
+static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
+                       const struct target *to)
 {
     struct slots *const l = &s->neighbours.pairs;
     for (int from = 0; from < count; from += TOUCH) {
@@ -491,3 +307,21 @@ void block_work_walls(struct sim *s, struct block *b, const struct target *to)
     add_walls(b, to);
     b->n = 0;
 }
+
+static int rows(const struct sim *s)
+{
+    (void)s;
+    return laws_rows();
+}
+
+static size_t seen_size(const struct sim *s)
+{
+    (void)s;
+    return sizeof(double4);
+}
+
+const struct contact_path contact_spheres = {.rows = rows,
+                                             .pairs = work_pairs,
+                                             .walls = walls_enter,
+                                             .view = contact_view_slots,
+                                             .seen_size = seen_size};

@@ -67,12 +67,8 @@ struct target {
     bool asked;  /* energy, counts and overlaps are wanted */
 };
 
-/* Works `count` pair slots through shape and laws, in blocks. */
-void block_work(struct sim *s, struct block *b, const int *slot, int count,
-                const struct target *to);
-
-/* The same for the wall contacts that were entered one by one (contact_walls.c), up to TOUCH of
- * them; empties the block. */
+/* Works the wall contacts of spheres that were entered one by one (contact_walls.c), up to TOUCH
+ * of them; empties the block. */
 void block_work_walls(struct sim *s, struct block *b, const struct target *to);
 
 #endif

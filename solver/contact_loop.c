@@ -14,15 +14,9 @@
 #include "../contact/contact.h"
 #include "../contact/lubrication/lubrication.h"
 #include "../contact/rolling/rolling.h"
+#include "contact_path.h"
 #include "contact_walls.h"
 #include "sim.h"
-
-int contact_rows(void)
-{
-    const int rows = contact_history + rolling_history + cohesion_history +
-                     lubrication_history + bond_history;
-    return (rows + 3) / 4 * 4;
-}
 
 double contact_reach(void)
 {
@@ -78,13 +72,13 @@ static void flush_sums(struct sim *s)
 }
 
 /* Room for the forces of single contacts. */
-static void prepare_seen(struct contact_work *w, int list, size_t slots)
+static void prepare_seen(struct contact_work *w, int list, size_t slots, size_t size)
 {
     if (slots <= w->seen_room[list])
         return;
     w->seen_room[list] = slots + slots / 16 + 64;
     xfree(w->seen[list]);
-    w->seen[list] = xalloc(w->seen_room[list], sizeof *w->seen[list]);
+    w->seen[list] = xalloc(w->seen_room[list], size);
 }
 
 void contact_prepare(struct sim *s)
@@ -92,8 +86,9 @@ void contact_prepare(struct sim *s)
     struct contact_work *const w = s->contacts;
     const struct neighbours *const nb = &s->neighbours;
     if (w->watched) {
-        prepare_seen(w, 0, nb->pairs.n);
-        prepare_seen(w, 1, nb->walls.n);
+        const size_t size = shape.path->seen_size(s);
+        prepare_seen(w, 0, nb->pairs.n, size);
+        prepare_seen(w, 1, nb->walls.n, size);
     }
     flush_sums(s);
     if (nb->runs > w->runs) {
@@ -186,9 +181,10 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     r->energy = r->overlap = 0.0;
     r->too_deep = false;
     r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
-    block_work(s, &b, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run], &to);
+    shape.path->pairs(s, &b, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run],
+                      &to);
     if (walls)
-        walls_enter(s, run, &b, &to);
+        shape.path->walls(s, run, &b, &to);
     r->skeleton_sum += r->skeleton;
     for (int k = 0; walls && k < s->walls.n; k++)
         w->wall_sum[(size_t)run * s->walls.n + k].both += to.wall[k].both;

@@ -29,8 +29,8 @@ struct contact_work {
     struct sums *wall_force; /* per run and wall: on it, with the torque about its pivot, now */
     struct sums *wall_sum;   /* the same, over the steps since it was last collected */
     bool watched;            /* someone looks at single contacts (contact_view.h) */
-    double4 *seen[2]; /* then, per slot of pairs, of walls: N, on the owner, at the last step
-                              that was asked for */
+    void *seen[2]; /* then, per slot of pairs, of walls: what the path keeps of the last
+                              step that was asked for */
     size_t seen_room[2];
     struct break_list broken; /* bonds, since the start */
     int runs;                 /* room of the three */
@@ -41,7 +41,6 @@ struct contact_work {
 void contact_create(struct sim *s, struct scene *scene);
 void contact_free(struct sim *s);
 
-int contact_rows(void);     /* reals of memory per contact, all laws together, in fours */
 double contact_reach(void); /* m, gap up to which some law acts */
 
 /* Room for the lists at hand: after every rebuild of them. */

@@ -4,6 +4,7 @@
 
 #include "analysis.h"
 #include "contact_loop.h"
+#include "contact_path.h"
 #include "sim.h"
 
 static vec3 of4(double4 a)
@@ -61,7 +62,7 @@ static void look(const struct sim *s, const struct slots *l, bool walls, const i
         candidate(s, l, walls, slot[k], &c, &t);
     pad(&c, &t);
     t.n = c.n;
-    shape_overlaps(&s->grains, &c, &t, &arm);
+    shape.overlaps(&s->grains, &c, &t, &arm);
     for (int k = 0; k < n; k++) {
         struct seen *const v = &out[k];
         const vec3 lever = v3((double)arm.ix[k], (double)arm.iy[k], (double)arm.iz[k]);
@@ -73,7 +74,7 @@ static void look(const struct sim *s, const struct slots *l, bool walls, const i
         v->point = v3_add(s->grains.pos[v->i], lever);
         v->branch = walls ? v3_scale(-1.0, lever)
                           : v3((double)c.dx[k], (double)c.dy[k], (double)c.dz[k]);
-        v->force = of4(s->contacts->seen[walls][slot[k]]);
+        v->force = of4(((const double4 *)s->contacts->seen[walls])[slot[k]]);
         v->normal_force = v3_dot(v->force, v->normal);
     }
 }
@@ -104,7 +105,17 @@ static size_t look_run(const struct sim *s, const struct slots *l, bool walls, i
     return total;
 }
 
-void contact_view_take(const struct sim *s, struct contact_view *v)
+void contact_view_reserve(struct contact_view *v, size_t n)
+{
+    v->n = n;
+    if (n > v->capacity) {
+        xfree(v->seen);
+        v->capacity = n + n / 4;
+        v->seen = xalloc(v->capacity, sizeof *v->seen);
+    }
+}
+
+void contact_view_slots(const struct sim *s, struct contact_view *v)
 {
     const struct neighbours *const nb = &s->neighbours;
     const struct slots *const list[2] = {&nb->pairs, &nb->walls};
@@ -119,12 +130,7 @@ void contact_view_take(const struct sim *s, struct contact_view *v)
         first[r + 1] = look_run(s, list[r / nb->runs], r >= nb->runs, r % nb->runs, NULL);
     for (int r = 0; r < 2 * nb->runs; r++)
         first[r + 1] += first[r];
-    v->n = first[2 * nb->runs];
-    if (v->n > v->capacity) {
-        xfree(v->seen);
-        v->capacity = v->n + v->n / 4;
-        v->seen = xalloc(v->capacity, sizeof *v->seen);
-    }
+    contact_view_reserve(v, first[2 * nb->runs]);
 #pragma omp parallel for schedule(static)
     for (int r = 0; r < 2 * nb->runs; r++)
         if (first[r + 1] > first[r])
@@ -141,7 +147,7 @@ const struct contact_view *contact_view(struct sim *s)
 {
     struct contact_view *const v = &s->analysis.view;
     if (v->taken != s->substep + 1) {
-        contact_view_take(s, v);
+        shape.path->view(s, v);
         v->taken = s->substep + 1;
     }
     return v;

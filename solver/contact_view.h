@@ -36,7 +36,9 @@ const struct contact_view *contact_view(struct sim *s);
 /* To be called before the start by whoever will look. */
 void contact_view_wanted(struct sim *s);
 
-/* Fills `v` anew; its owner frees v->seen with xfree. */
-void contact_view_take(const struct sim *s, struct contact_view *v);
+/* Fills `v` anew, where there is one contact a slot; its owner frees v->seen with xfree. */
+void contact_view_slots(const struct sim *s, struct contact_view *v);
+/* Room for n contacts. */
+void contact_view_reserve(struct contact_view *v, size_t n);
 
 #endif

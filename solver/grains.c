@@ -90,6 +90,21 @@ static void read_species(struct sim *s, struct scene *scene)
             add_material(g, others[i]);
 }
 
+static void read_forms(struct grains *g, struct scene *scene)
+{
+    struct shape_form *const form = xalloc((size_t)g->n_species + 1, sizeof *form);
+    for (int k = 0; k < g->n_species; k++)
+        form[k] = (struct shape_form){.bounding = 1.0,
+                                      .inertia = {0.4, 0.4, 0.4},
+                                      .sphericity = (double)NAN,
+                                      .points_most = 1};
+    if (shape.init)
+        shape.init(scene, g, form);
+    for (int k = 0; k < g->n_species; k++)
+        g->species[k].form = form[k];
+    xfree(form);
+}
+
 static void register_fields(struct sim *s)
 {
     struct grains *const g = &s->grains;
@@ -200,6 +215,24 @@ double grains_widest(const struct grains *g)
     return widest;
 }
 
+#define PI 3.14159265358979323846
+
+void grains_body(struct grains *g, int i, double diameter)
+{
+    const struct species *const sp = &g->species[g->kind[i]];
+    const double size = 0.5 * diameter;
+    g->radius[i] = size * sp->form.bounding;
+    g->volume[i] =
+        shape.volume ? shape.volume(diameter) : PI / 6.0 * diameter * diameter * diameter;
+    g->mass[i] = sp->density * g->volume[i];
+    const double scale = g->mass[i] * size * size;
+    const vec3 inertia = sp->form.inertia;
+    const bool round = inertia.x == inertia.y && inertia.y == inertia.z;
+    g->inv_mass[i] = 1.0 / g->mass[i];
+    g->inv_inertia[i] =
+        1.0 / (scale * (round ? inertia.x : (inertia.x + inertia.y + inertia.z) / 3.0));
+}
+
 static void make_bodies(struct grains *g, struct scene *scene, const struct fill *f)
 {
     const char *const *names;
@@ -216,7 +249,7 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct fill
         g->id[i] = i;
         g->kind[i] = p->species;
         g->pos[i] = p->pos;
-        shape_body(g, i, p->diameter, sp->density);
+        grains_body(g, i, p->diameter);
         if (sp->frozen) {
             g->inv_mass[i] = g->inv_inertia[i] = 0.0;
             g->n_frozen++;
@@ -237,6 +270,7 @@ void grains_create(struct sim *s, struct scene *scene)
     scene_declare(scene, grains_keys);
     scene_declare(scene, sizes_keys);
     read_species(s, scene);
+    read_forms(g, scene);
     struct fill f = {0};
     /* Placing grains needs sound numbers: with errors on the list they stay out. */
     if (scene_errors(scene) == 0)
@@ -256,6 +290,8 @@ void grains_create(struct sim *s, struct scene *scene)
 void grains_free(struct sim *s)
 {
     struct grains *const g = &s->grains;
+    if (shape.free)
+        shape.free();
     for (int k = 0; k < g->n_species; k++)
         xfree(g->species[k].made), sizes_free(&g->species[k].sizes);
     void *const all[] = {g->id,        g->kind,     g->pos,         g->vel,         g->spin,

@@ -19,12 +19,22 @@ struct material {
     char name[NAME_LENGTH];
 };
 
+/* What the grains of a species are alike in (shapes/shape.h); lengths in units of their size, the
+ * radius of the sphere of their volume. */
+struct shape_form {
+    double bounding;   /* radius of the sphere about the centre of mass that holds it, >= 1 */
+    vec3 inertia;      /* principal, over m size^2 */
+    double sphericity; /* area of the sphere of its volume over its own; NAN: unknown */
+    int points_most;   /* most points of contact with another grain of any species */
+};
+
 struct species {
     char name[NAME_LENGTH];
     int material;    /* index */
     double diameter; /* m, volume-equivalent; the median where sizes differ */
     double largest;  /* m, of its diameters */
     struct sizes sizes;
+    struct shape_form form;
     double density; /* kg/m3 */
     int count;
     int n_made, room;
@@ -78,6 +88,9 @@ void grains_follow(struct grains *g, void **data, size_t size);
 void grains_reserve(struct sim *s, int n);
 /* The indices of the grains in order of id; xfree it. */
 int *grains_order(const struct grains *g);
+/* Sets radius, volume, mass and inertia of grain i from its species and its volume-equivalent
+ * diameter, m. */
+void grains_body(struct grains *g, int i, double diameter);
 /* Notes that the species has one grain more. */
 void species_count(struct species *k, double diameter);
 /* m; radius of the widest grain that there is or that a species may still bring. */

@@ -4,7 +4,6 @@
 #include <gsl/gsl_rng.h>
 #include <string.h>
 #include "../porosity/porosity.h"
-#include "../shapes/shape.h"
 #include "contact_loop.h"
 #include "fill_grid.h"
 #include "sim.h"
@@ -62,7 +61,7 @@ int insert_grain(struct sim *s, int species, vec3 pos, double diameter, vec3 vel
     g->kind[i] = species;
     g->pos[i] = pos;
     g->vel[i] = vel;
-    shape_body(g, i, diameter, g->species[species].density);
+    grains_body(g, i, diameter);
     if (s->coupling.vel_old) {
         s->coupling.vel_old[i] = vel;
         s->coupling.pos_load[i] = pos;

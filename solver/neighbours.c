@@ -8,6 +8,7 @@
 #include <string.h>
 #include "../contact/contact.h"
 #include "contact_loop.h"
+#include "contact_path.h"
 #include "search.h"
 #include "sim.h"
 
@@ -53,7 +54,7 @@ void neighbours_create(struct sim *s)
     struct neighbours *const nb = &s->neighbours;
     const int n = s->grains.n;
     nb->reach = contact_reach();
-    nb->rows = contact_rows();
+    nb->rows = shape.path->rows(s);
     slots_create(&nb->pairs, n);
     slots_create(&nb->walls, n);
     nb->moved = nb->moved_inner = (double)INFINITY; /* stale from the start */

@@ -1,0 +1,188 @@
+/* contact_laws.c - the laws over one block of contacts. */
+#include "contact_laws.h"
+
+#include <string.h>
+#include "../contact/bond/bond.h"
+#include "../contact/cohesion/cohesion.h"
+#include "../contact/contact.h"
+#include "../contact/lubrication/lubrication.h"
+#include "../contact/rolling/rolling.h"
+#include "contact_loop.h"
+#include "sim.h"
+#include "turn.h"
+
+int laws_rows(void)
+{
+    const int rows = contact_history + rolling_history + cohesion_history +
+                     lubrication_history + bond_history;
+    return (rows + 3) / 4 * 4;
+}
+
+static unsigned needs(void)
+{
+    return rolling_needs | cohesion_needs | lubrication_needs | bond_needs;
+}
+
+/* Velocities at the contact point, from those of the centres, spins and levers. */
+void laws_velocities(struct block *b)
+{
+    struct touch *const t = &b->t;
+    const struct levers *const l = &b->l;
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const real px = b->px[c], py = b->py[c], pz = b->pz[c];
+        const real qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
+        t->vx[c] = fma(py, l->iz[c],
+                       fma(-pz, l->iy[c], fma(-qy, l->jz[c], fma(qz, l->jy[c], t->vx[c]))));
+        t->vy[c] = fma(pz, l->ix[c],
+                       fma(-px, l->iz[c], fma(-qz, l->jx[c], fma(qx, l->jz[c], t->vy[c]))));
+        t->vz[c] = fma(px, l->iy[c],
+                       fma(-py, l->ix[c], fma(-qx, l->jy[c], fma(qy, l->jx[c], t->vz[c]))));
+        t->wx[c] = px - qx;
+        t->wy[c] = py - qy;
+        t->wz[c] = pz - qz;
+        t->vn[c] = fma(t->nx[c], b->vx[c], fma(t->ny[c], b->vy[c], t->nz[c] * b->vz[c]));
+    }
+}
+
+/* What laws ask for only some of the time. */
+static void extras(const struct grains *g, struct block *b, unsigned asked)
+{
+    struct touch *const t = &b->t;
+    if (asked & TOUCH_SPIN)
+        for (int c = 0; c < t->n; c++) {
+            t->sx[c] = b->px[c];
+            t->sy[c] = b->py[c];
+            t->sz[c] = b->pz[c];
+        }
+    if (asked & TOUCH_INERTIA)
+        for (int c = 0; c < t->n; c++) {
+            const int i = b->c.i[c], j = b->c.j[c];
+            const bool wall = b->c.wall[c] != NULL;
+            const double ri = (double)t->r_i[c], rj = (double)t->r_j[c];
+            double inverse = 0.0;
+            if (g->inv_mass[i] > 0.0)
+                inverse += 1.0 / (1.0 / g->inv_inertia[i] + g->mass[i] * ri * ri);
+            if (!wall && g->inv_mass[j] > 0.0)
+                inverse += 1.0 / (1.0 / g->inv_inertia[j] + g->mass[j] * rj * rj);
+            t->inertia[c] = (real)(1.0 / inverse);
+        }
+    if (asked & TOUCH_COUPLES) {
+        memset(t->mx, 0, sizeof t->mx);
+        memset(t->my, 0, sizeof t->my);
+        memset(t->mz, 0, sizeof t->mz);
+    }
+}
+
+void laws_apply(struct sim *s, struct block *b)
+{
+    real(*h)[TOUCH] = b->history;
+    extras(&s->grains, b, needs());
+    if (bond_history > 0)
+        memset(b->t.broke, 0, sizeof b->t.broke);
+    contact_forces(&b->t, h);
+    h += contact_history;
+    cohesion_forces(&b->t, h);
+    h += cohesion_history;
+    lubrication_forces(&b->t, h);
+    h += lubrication_history;
+    rolling_moments(&b->t, h);
+    h += rolling_history;
+    bond_forces(&b->t, h);
+}
+
+double laws_energy(struct block *b, double reach)
+{
+    double sum = 0.0;
+    real(*h)[TOUCH] = b->history;
+    contact_energy(&b->t, h);
+    h += contact_history;
+    cohesion_energy(&b->t, h);
+    h += cohesion_history;
+    lubrication_energy(&b->t, h);
+    h += lubrication_history;
+    rolling_energy(&b->t, h);
+    h += rolling_history;
+    bond_energy(&b->t, h);
+    for (int c = 0; c < b->n; c++)
+        if ((double)b->t.depth[c] > -reach)
+            sum += b->t.energy[c];
+    return sum;
+}
+
+/* Forces and torques into rows: force and torque on i; torque on j. */
+static inline __attribute__((always_inline)) void pack(struct block *b, bool couples)
+{
+    const struct touch *const t = &b->t;
+    const struct levers *const l = &b->l;
+    const real8 zero = {0.0};
+    for (int c = 0; c < t->n; c += 8) {
+        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
+        const real8 mx = couples ? take8(&t->mx[c]) : zero,
+                    my = couples ? take8(&t->my[c]) : zero;
+        const real8 mz = couples ? take8(&t->mz[c]) : zero;
+        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
+        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
+        real8 i[8] = {fx,
+                      fy,
+                      fz,
+                      zero,
+                      iy * fz - iz * fy + mx,
+                      iz * fx - ix * fz + my,
+                      ix * fy - iy * fx + mz,
+                      zero};
+        real8 j[8] = {-fx,
+                      -fy,
+                      -fz,
+                      zero,
+                      jz * fy - jy * fz - mx,
+                      jx * fz - jz * fx - my,
+                      jy * fx - jx * fy - mz,
+                      zero};
+        turn8(i);
+        turn8(j);
+        for (int k = 0; k < 8; k++) {
+            put8(b->on[0][c + k], i[k]);
+            put8(b->on[1][c + k], j[k]);
+        }
+    }
+}
+
+void laws_pack(struct block *b)
+{
+    if (needs() & TOUCH_COUPLES)
+        pack(b, true);
+    else
+        pack(b, false);
+}
+
+/* Notes the bonds that broke; put in order where they are read. */
+void laws_note_broken(struct sim *s, const struct block *b, const struct slots *l, double time)
+{
+    const struct grains *const g = &s->grains;
+    if (bond_history == 0)
+        return;
+    for (int c = 0; c < b->n; c++) {
+        if (b->t.broke[c] == 0)
+            continue;
+        const vec3 arm = v3((double)b->l.ix[c], (double)b->l.iy[c], (double)b->l.iz[c]);
+        const int i = b->c.i[c];
+        const struct broken bond = {.time = time,
+                                    .point = v3_add(g->pos[i], arm),
+                                    .i = g->id[i],
+                                    .j =
+                                        b->walls ? -1 - l->other[b->slot[c]] : g->id[b->c.j[c]],
+                                    .mode = b->t.broke[c]};
+#pragma omp critical(note_broken)
+        {
+            struct break_list *const list = &s->contacts->broken;
+            if (list->n == list->room) {
+                const int room = 2 * list->room + 64;
+                list->bond =
+                    xrealloc(list->bond, (size_t)list->room, (size_t)room, sizeof *list->bond);
+                list->room = room;
+            }
+            list->bond[list->n++] = bond;
+        }
+    }
+}

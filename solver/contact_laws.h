@@ -1,0 +1,51 @@
+/* contact_laws.h - what the two paths of the contact loop share: the laws over a block of contacts
+ * whose geometry, velocities and memory are in place, and what is made of their forces.
+ *
+ * contact_block.c finds one contact per slot (spheres), contact_points.c any number of them (other
+ * shapes); both then go through these in the order of this file. */
+#ifndef CONTACT_LAWS_H
+#define CONTACT_LAWS_H
+
+#include <string.h>
+#include "contact_block.h"
+#include "neighbours.h"
+
+int laws_rows(void); /* reals of memory per contact, all laws together, in fours */
+
+/* Velocities at the contact point, from those of the centres, spins and levers; vn from those of
+ * the centres alone. */
+void laws_velocities(struct block *b);
+
+/* The force of a step stands for half a step before and after it. A contact that began within the
+ * step was on for depth/|v_n| before: the part of a whole step that its dashpot acts for. Without
+ * this the restitution is first order in the step. */
+static inline real laws_first_part(const struct touch *t, int c)
+{
+    const real dt = (real)t->dt;
+    const real since = t->vn[c] < 0.0 ? t->depth[c] / (-t->vn[c] * dt) : 0.5;
+    return fmin(fmax(since, 0.0), 1.0) + 0.5;
+}
+
+/* Forces, couples and memory of every contact. */
+void laws_apply(struct sim *s, struct block *b);
+/* Notes the bonds that broke; put in order where they are read. */
+void laws_note_broken(struct sim *s, const struct block *b, const struct slots *l, double time);
+/* Forces and torques into rows, b->on. */
+void laws_pack(struct block *b);
+/* J, stored by the contacts within `reach`; after laws_apply. */
+double laws_energy(struct block *b, double reach);
+
+static inline double8 laws_wide(const real row[8])
+{
+    real8 a;
+    memcpy(&a, row, sizeof a);
+    return __builtin_convertvector(a, double8);
+}
+
+static inline double4 laws_force(const struct block *b, int c)
+{
+    const real *const f = b->on[0][c];
+    return (double4){(double)f[0], (double)f[1], (double)f[2], 0.0};
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* contact_path.h - the two ways from slots to forces, one of which the shape picks (shapes/shape.h).
+ * A path is named by the shape alone, so only that path is linked. */
+#ifndef CONTACT_PATH_H
+#define CONTACT_PATH_H
+
+#include "contact_block.h"
+
+struct contact_view;
+struct neighbours;
+struct turning;
+
+struct contact_path {
+    int (*rows)(const struct sim *s); /* reals of memory per slot, in fours */
+    /* Works `count` pair slots, and the wall slots of a run, through shape and laws; forces are
+     * added to those of the target. */
+    void (*pairs)(struct sim *s, struct block *b, const int *slot, int count,
+                  const struct target *to);
+    void (*walls)(struct sim *s, int run, struct block *b, const struct target *to);
+    /* The contacts of the last step, see contact_view.h; room for what is kept for it. */
+    void (*view)(const struct sim *s, struct contact_view *v);
+    size_t (*seen_size)(const struct sim *s); /* bytes per slot */
+    const struct turning *turning;            /* NULL: a grain's inertia is a number, and nobody
+                                                 asks for its orientation */
+};
+
+#endif
