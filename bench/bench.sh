@@ -37,3 +37,4 @@ for j in 1 $(nproc); do
 done
 bench/scaling.sh "${1:-}"
 bench/peers.sh "${1:-}"
+bench/dpmfoam.sh "${1:-}"

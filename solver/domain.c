@@ -24,6 +24,8 @@ const struct key domain_keys[] = {
      "velocity of a wall in its own plane; the name of the side, \"z+\", names the section"},
     {"side", "grains", KEY_CHOICE, "", "wall | open", "wall",
      "what the side is for grains; open: those that leave are gone (insert.h)"},
+    {"side", "material", KEY_TEXT, "", "", "",
+     "what grains meet there; default: \"wall\" if there is one, or that of the first species"},
     {"side", "head", KEY_REAL, "m", "(-inf, inf)", "0 m",
      "total head held at a side of kind head"},
     {"side", "flux", KEY_REAL, "m s-1", "(-inf, inf)", "0 m/s",

@@ -151,11 +151,11 @@ void walls_materials(struct sim *s, struct scene *scene)
     for (int k = 0; k < s->walls.n; k++) {
         struct wall *const w = &s->walls.wall[k];
         w->material = wall >= 0 ? wall : 0;
-        const char *const asked =
-            w->kind == &wall_side ? "" : scene_text(scene, "wall", w->name, "material");
+        const char *const section = w->kind == &wall_side ? "side" : "wall";
+        const char *const asked = scene_text(scene, section, w->name, "material");
         const int m = material_index(s, asked);
         if (asked[0] != '\0' && m < 0)
-            scene_error(scene, "wall", w->name, "material", "there is no [material %s]", asked);
+            scene_error(scene, section, w->name, "material", "there is no [material %s]", asked);
         else if (asked[0] != '\0')
             w->material = m;
     }
