@@ -155,7 +155,8 @@ void walls_materials(struct sim *s, struct scene *scene)
         const char *const asked = scene_text(scene, section, w->name, "material");
         const int m = material_index(s, asked);
         if (asked[0] != '\0' && m < 0)
-            scene_error(scene, section, w->name, "material", "there is no [material %s]", asked);
+            scene_error(scene, section, w->name, "material", "there is no [material %s]",
+                        asked);
         else if (asked[0] != '\0')
             w->material = m;
     }
