@@ -71,22 +71,21 @@ struct shape_pair {
 };
 
 struct shape_point {
-    int id; /* >= 0, < 2^22: what touches what (sphere a with sphere b, vertex 3 with face 5),
-                      the same from step to step: by it, the contact finds its memory. Unique within
-                      the pair. A point whose id is new takes over the memory of one that has just
-                      gone, where it stood close by. */
-    double depth; /* m, overlap; negative: a gap */
-    vec3 normal;  /* unit, from j to i */
-    vec3 at;      /* m, place of the contact, as seen from x_i */
-    vec3 from_i,
-        from_j; /* m, of either body a point on the line through `at` along the normal, as
-                            seen from x_i and x_j: where the normal velocity is taken. Mathematically
-                            any will do; the centre of the rounded edge keeps a sphere a sphere to the
-                            last bit */
-    double r_i,
-        r_j;      /* m, radii of curvature, for r_eff of the laws; > 0; r_j = 0: j is flat. For
-                        faces on faces choose what stands for the stiffness wanted, and say so in
-                        the shape's head */
+    int id; /* >= 0, < 2^22: what touches what (sphere a with sphere b, vertex 3 with face 5), the
+               same from step to step: by it, the contact finds its memory. Unique within the pair.
+               A point whose id is new takes over the memory of one that has just gone, where it
+               stood close by. */
+    double depth;    /* m, overlap; negative: a gap */
+    vec3 normal;     /* unit, from j to i */
+    vec3 at_i, at_j; /* m, place of the contact, as seen from x_i and from x_j */
+    /* m, of either body a point on the line through the contact along the normal, as seen from x_i
+     * and from x_j: where the normal velocity is taken. Mathematically any will do, at_i and at_j
+     * too; the centre of a rounded edge keeps a sphere a sphere to the last bit. */
+    vec3 from_i, from_j;
+    /* m, radii of curvature, for r_eff of the laws; r_i > 0; r_j = 0: flat. (Where i is the flat
+     * one, give the radius of j as r_i.) For faces on faces choose what stands for the stiffness
+     * wanted, and say so in the shape's head. */
+    double r_i, r_j;
     double scale; /* m; overlap over this is what run.overlap_max limits */
 };
 
@@ -102,7 +101,8 @@ static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, d
     return (struct shape_point){.id = id,
                                 .depth = 2.0 * half,
                                 .normal = n,
-                                .at = v3_axpy(ci, half - ri, n),
+                                .at_i = v3_axpy(ci, half - ri, n),
+                                .at_j = v3_axpy(cj, rj - half, n),
                                 .from_i = ci,
                                 .from_j = cj,
                                 .r_i = ri,
@@ -116,10 +116,11 @@ struct shape_ball {
     double radius;
 };
 
-/* An element of a wall with straight edges, as seen by a grain: m, from x_i; in the lab. */
+/* A flat element of a wall as seen by a grain: m, from x_i, in the lab. */
 struct shape_facet {
-    int n; /* corners: 2 an edge, 3, 4; in order */
-    vec3 corner[4];
+    int n;              /* corners: 0 a plane without end, 3, 4 */
+    vec3 corner[4];     /* in order */
+    vec3 point, normal; /* one of its points; unit, towards the side of x_i */
 };
 
 /* Takes the triangles of a surface, body's frame, units of size; counter-clockwise from outside. */
@@ -149,19 +150,23 @@ struct shape {
     void (*overlaps)(const struct grains *g, const struct candidates *c, struct touch *t,
                      struct levers *l);
 
-    /* contact_points: writes the points of contact of a pair, at most `most` of them (the larger
-     * of both forms' points_most), in a fixed order; returns how many. More than `most`: returns
-     * the number that there are, which stops the run. */
+    /* contact_points: writes the points of contact of a pair, at most `most` of them (the largest
+     * points_most of all species), in a fixed order; returns how many. If there are more, it returns
+     * their number, and the run stops and says so. */
     int (*points)(const struct shape_pair *p, int most, struct shape_point *out);
     int memory; /* reals of shape_pair.memory */
 
-    /* The balls by which a species touches walls: their union must reach as far as the body at
-     * every vertex, and a ball must be thicker than overlaps get, since the side of the wall that
-     * its centre is on is its side. *n of them; the array stays. */
+    /* Walls of every kind are met in one of two ways. Either by balls: their union must reach as far
+     * as the body at every vertex, and a ball must be thicker than overlaps get, since the side of
+     * the wall that its centre is on is its side. *n of them; the array stays. Radii of curvature
+     * and ids of the contacts are those of the balls and their numbers. */
     const struct shape_ball *(*balls)(int species, int *n);
-    /* What the balls miss: points at which the body touches an edge (n = 2) or the whole (n > 2)
-     * of a flat element of a wall elsewhere than with its balls. j is the wall: only `at`, from_i
-     * and r_j = 0 count; ids from 0 on. NULL: nothing. */
+    /* Or, for a convex body without vertices (balls NULL), by its farthest point along the unit
+     * vector `way` (lab): m, from x_i; *radius: m, of its curvature there. */
+    vec3 (*support)(const struct shape_pose *i, vec3 way, double *radius);
+    /* Besides the balls: points at which the body touches a flat element elsewhere, as where an edge
+     * of the wall meets a face or an edge of the body. j is the wall: id, depth, normal, at_i, from_i,
+     * r_i and scale count; ids from the number of balls on. NULL: none. */
     int (*facet)(const struct shape_pose *i, const struct shape_facet *f, double reach,
                  int most, struct shape_point *out);
 

@@ -25,7 +25,8 @@ struct shape_form {
     double bounding;   /* radius of the sphere about the centre of mass that holds it, >= 1 */
     vec3 inertia;      /* principal, over m size^2 */
     double sphericity; /* area of the sphere of its volume over its own; NAN: unknown */
-    int points_most;   /* most points of contact with another grain of any species */
+    int points_most;   /* most points of contact with a grain of any species, or with a wall's
+                          element */
 };
 
 struct species {

@@ -95,9 +95,19 @@ struct quat quat_of_matrix(const struct mat3 *m);
  * the principal axes to the frame at hand. */
 vec3 rotation_principal(const double tensor[6], struct quat *axes);
 
-/* A free body turns for a time dt: orientation q, angular momentum `l` in the laboratory (which
- * stays), principal inertia. See rotation.c. */
-struct quat rotation_free(struct quat q, vec3 l, vec3 inertia, double dt);
+struct rotated {
+    struct quat q;
+    vec3 spin; /* rad/s, in the laboratory: the steady one that would have turned it as far */
+};
+
+struct rotated {
+    struct quat q;
+    vec3 spin; /* rad/s, in the laboratory: the steady one that would have turned it as far */
+};
+
+/* A free body turns for a time dt: orientation q, angular momentum l [kg m2/s] in the laboratory
+ * (which stays), principal inertia. Right where |spin| dt < 1 or so. See rotation.c. */
+struct rotated rotation_free(struct quat q, vec3 l, vec3 inertia, double dt);
 
 /* rad/s, in the laboratory, of a body with that angular momentum; and back. */
 static inline vec3 rotation_spin(const struct mat3 *m, vec3 l, vec3 inertia)
