@@ -36,7 +36,8 @@ struct quat quat_of_matrix(const struct mat3 *m)
                  wz = c * (r[1].x - r[0].y);
     const double xy = c * (r[0].y + r[1].x), yz = c * (r[1].z + r[2].y),
                  zx = c * (r[2].x + r[0].z);
-    const struct quat all[4] = {{d, wx, wy, wz}, {wx, d, xy, zx}, {wy, xy, d, yz}, {wz, zx, yz, d}};
+    const struct quat all[4] = {
+        {d, wx, wy, wz}, {wx, d, xy, zx}, {wy, xy, d, yz}, {wz, zx, yz, d}};
     return quat_unit(all[k]);
 }
 

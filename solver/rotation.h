@@ -100,11 +100,6 @@ struct rotated {
     vec3 spin; /* rad/s, in the laboratory: the steady one that would have turned it as far */
 };
 
-struct rotated {
-    struct quat q;
-    vec3 spin; /* rad/s, in the laboratory: the steady one that would have turned it as far */
-};
-
 /* A free body turns for a time dt: orientation q, angular momentum l [kg m2/s] in the laboratory
  * (which stays), principal inertia. Right where |spin| dt < 1 or so. See rotation.c. */
 struct rotated rotation_free(struct quat q, vec3 l, vec3 inertia, double dt);
