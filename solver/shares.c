@@ -7,11 +7,16 @@
  * that of a cap; where many planes cut it, what depends on two of them is found once per pair. */
 #include "shares.h"
 
+#include <string.h>
+
 #include "sphere_box.h"
 
 static const double beyond_all = -2.0; /* radii: a plane that cuts nothing off */
 
-enum { PLANES_MOST = 16 }; /* per direction, for the tables of pairs */
+enum {
+    PLANES_MOST = 16, /* per direction, for the tables of pairs */
+    PARTS_MOST = PLANES_MOST * PLANES_MOST * PLANES_MOST
+};
 
 /* Interior index 1..n of interval i, counted from 0 at the low side and on beyond the box. */
 static inline int fold(const struct grid *g, const struct domain *d, int axis, int i)
@@ -68,7 +73,7 @@ int shares_trilinear(const struct grid *g, const struct domain *d, vec3 x, struc
 struct span {
     int first, n;         /* of the intervals, counted from 0 at the low side of the box */
     double centre, inv_r; /* centre from the low face of `first`, m; 1/m */
-    double h;             /* m */
+    double h, inv_h;      /* m, 1/m */
 };
 
 /* At most that many intervals of width h hold a length of 2 r. */
@@ -88,8 +93,12 @@ static struct span span_find(const struct grid *g, int axis, double x, double ra
     if (hi - lo >= most) /* by round-off; what is cut off stays in the last interval */
         hi = lo + most - 1;
     hi = hi < lo ? lo : hi;
-    return (struct span){
-        .first = lo, .n = hi - lo + 1, .centre = x - lo * h, .inv_r = 1.0 / radius, .h = h};
+    return (struct span){.first = lo,
+                         .n = hi - lo + 1,
+                         .centre = x - lo * h,
+                         .inv_r = 1.0 / radius,
+                         .h = h,
+                         .inv_h = 1.0 / h};
 }
 
 /* Low plane of interval i of the span, in radii from the centre. */
@@ -204,19 +213,18 @@ int shares_ball_most(const struct grid *g, double radius)
 int shares_ball(const struct grid *g, const struct domain *d, vec3 x, double radius,
                 struct share *out)
 {
-    enum { PARTS = PLANES_MOST * PLANES_MOST * PLANES_MOST };
     const struct span s[3] = {span_find(g, 0, x.x, radius), span_find(g, 1, x.y, radius),
                               span_find(g, 2, x.z, radius)};
     const int n = s[0].n * s[1].n * s[2].n;
     const bool small = s[0].n <= PLANES_MOST && s[1].n <= PLANES_MOST && s[2].n <= PLANES_MOST;
-    double parts[PARTS];
+    double parts[PARTS_MOST];
     if (n == 1) {
         out[0] = (struct share){cell(g, fold(g, d, 0, s[0].first), fold(g, d, 1, s[1].first),
                                      fold(g, d, 2, s[2].first)),
                                 1.0};
         return 1; /* the whole of it */
     }
-    double *const G = n <= PARTS ? parts : xalloc((size_t)n, sizeof *G);
+    double *const G = n <= PARTS_MOST ? parts : xalloc((size_t)n, sizeof *G);
     if (small)
         parts_by_pairs(s, G);
     else
@@ -224,6 +232,107 @@ int shares_ball(const struct grid *g, const struct domain *d, vec3 x, double rad
     differences(s, G);
     const int used = keep(g, d, s, G, out);
     if (G != parts)
+        xfree(G);
+    return used;
+}
+
+int shares_parts_most(const struct grid *g, double reach)
+{
+    return shares_ball_most(g, reach);
+}
+
+/* Adds a cube that spans any number of cells: the part of its edge in each interval of each
+ * direction, times one another. */
+static void cube_wide(const struct span s[3], const double at[3], double half, double weight,
+                      double *G)
+{
+    const int nx = s[0].n, ny = s[1].n;
+    int first[3], last[3];
+    for (int a = 0; a < 3; a++) {
+        first[a] = (int)fmax(0.0, (at[a] - half) * s[a].inv_h);
+        last[a] = (int)fmin(s[a].n - 2, (at[a] + half) * s[a].inv_h);
+    }
+    for (int c = first[2]; c <= last[2]; c++)
+        for (int b = first[1]; b <= last[1]; b++)
+            for (int e = first[0]; e <= last[0]; e++) {
+                const int index[3] = {e, b, c};
+                double part = weight;
+                for (int a = 0; a < 3; a++) {
+                    const double lo = fmax(at[a] - half, index[a] * s[a].h);
+                    const double hi = fmin(at[a] + half, (index[a] + 1) * s[a].h);
+                    part *= s[a].h > 0.0 ? fmax(0.0, hi - lo) / (2.0 * half) : 1.0;
+                }
+                G[e + nx * (b + ny * c)] += part;
+            }
+}
+
+/* Adds a cube no wider than a cell: to two intervals of each direction, the upper one perhaps with
+ * nothing. */
+static inline void cube_narrow(const struct span s[3], const double at[3], double half,
+                               double inv, double weight, double *G)
+{
+    int first[3];
+    double head[3];
+    for (int a = 0; a < 3; a++) {
+        const double lo = (at[a] - half) * s[a].inv_h;
+        const int k = (int)lo, most = s[a].n - 2;
+        first[a] = k < 0 ? 0 : k > most ? most : k;
+        head[a] = s[a].h > 0.0 ? fmin(1.0, (first[a] + 1 - lo) * s[a].h * inv) : 1.0;
+    }
+    const int nx = s[0].n, nxy = nx * s[1].n;
+    double *const cell00 = G + first[0] + nx * first[1] + nxy * first[2];
+    const double up = weight * head[2], above = weight - up;
+    const double w[4] = {up * head[1], up - up * head[1], above * head[1],
+                         above - above * head[1]};
+    double *const row[4] = {cell00, cell00 + nx, cell00 + nxy, cell00 + nxy + nx};
+    for (int r = 0; r < 4; r++) {
+        row[r][0] += w[r] * head[0];
+        row[r][1] += w[r] - w[r] * head[0];
+    }
+}
+
+/* Adds the cubes to the cells of the brick; `at`: m, the body's origin in it. */
+static void cubes_add(const struct span s[3], const struct parts *p, const double at[3],
+                      const struct mat3 *turn, double size, double *G)
+{
+    const double inv_size = 0.5 / size;
+    double least = INFINITY;
+    for (int a = 0; a < 3; a++)
+        least = s[a].h > 0.0 ? fmin(least, s[a].h) : least;
+    for (int k = 0; k < p->n; k++) {
+        const vec3 x = mat3_turn(turn, p->at[k]);
+        const double half = size * p->half[k];
+        const double place[3] = {at[0] + size * x.x, at[1] + size * x.y, at[2] + size * x.z};
+        if (2.0 * half <= least)
+            cube_narrow(s, place, half, inv_size * p->inv_half[k], p->weight[k], G);
+        else
+            cube_wide(s, place, half, p->weight[k], G);
+    }
+}
+
+int shares_parts(const struct grid *g, const struct domain *d, const struct parts *p, vec3 x,
+                 const struct mat3 *turn, double size, struct share *out)
+{
+    const double reach = size * p->reach;
+    struct span s[3] = {span_find(g, 0, x.x, reach), span_find(g, 1, x.y, reach),
+                        span_find(g, 2, x.z, reach)};
+    double few[PARTS_MOST], at[3];
+    if (s[0].n * s[1].n * s[2].n == 1) {
+        out[0] = (struct share){cell(g, fold(g, d, 0, s[0].first), fold(g, d, 1, s[1].first),
+                                     fold(g, d, 2, s[2].first)),
+                                1.0};
+        return 1;
+    }
+    for (int a = 0; a < 3; a++) {
+        at[a] = s[a].centre;
+        s[a].n++; /* an interval beyond, which gets nothing */
+    }
+    const int n = s[0].n * s[1].n * s[2].n;
+    double *const G = n <= PARTS_MOST ? few : xalloc((size_t)n, sizeof *G);
+    memset(G, 0, (size_t)n * sizeof *G);
+    cubes_add(s, p, at, turn, size, G);
+    const int used = keep(g, d, s, G, out);
+    if (G != few)
         xfree(G);
     return used;
 }

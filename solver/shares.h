@@ -7,6 +7,7 @@
 #define SHARES_H
 
 #include "grid.h"
+#include "rotation.h"
 
 struct share {
     int cell;      /* interior cell, index in a grid field */
@@ -22,5 +23,22 @@ int shares_trilinear(const struct grid *g, const struct domain *d, vec3 x, struc
 int shares_ball_most(const struct grid *g, double radius); /* shares, at most */
 int shares_ball(const struct grid *g, const struct domain *d, vec3 x, double radius,
                 struct share *out);
+
+/* A body in parts, each taken for a cube along the axes of the grid (of the same volume, at the same
+ * place); lengths in units of the body's size, in its frame. */
+struct parts {
+    int n;
+    double reach; /* of the farthest corner of a cube from the origin, however turned */
+    vec3 *at;     /* centres */
+    double *half; /* half edges */
+    double *inv_half;
+    double *weight; /* parts of the volume, sum 1 */
+};
+
+/* Parts of the body in cells: of the body of that size (m) whose origin is at x, turned by `turn`
+ * (body to lab). */
+int shares_parts_most(const struct grid *g, double reach); /* m: size times parts.reach */
+int shares_parts(const struct grid *g, const struct domain *d, const struct parts *p, vec3 x,
+                 const struct mat3 *turn, double size, struct share *out);
 
 #endif

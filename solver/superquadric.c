@@ -10,6 +10,7 @@
 #include <gsl/gsl_sf_gamma.h>
 #include <stddef.h>
 
+static const double pi = 3.14159265358979323846;
 /* Components of a normal count as this at least: on faces radii of curvature are infinite. */
 static const double flat = 1e-100;
 static const double flattest = 1e8; /* half axes: radii of curvature are cut there */
@@ -143,4 +144,48 @@ void superquadric_inertia(const struct superquadric *s, double i[3])
     i[0] = k * (bb * round + cc * along);
     i[1] = k * (aa * round + cc * along);
     i[2] = k * (aa + bb) * round;
+}
+
+/* Of a convex body: polygon of the points at which tangents along `way` touch it; half of it, since
+ * the other half is its image. */
+double superquadric_shadow(const struct superquadric *s, vec3 way)
+{
+    enum { SIDES = 64 };
+    const double *const a = s->a;
+    if (s->ellipsoid) {
+        const vec3 n = v3(way.x * a[1] * a[2], way.y * a[0] * a[2], way.z * a[0] * a[1]);
+        return pi * v3_norm(n);
+    }
+    const vec3 u = fabs(way.z) < 0.7 ? v3(-way.y, way.x, 0.0) : v3(0.0, -way.z, way.y);
+    const vec3 e = v3_scale(1.0 / v3_norm(u), u), f = v3_cross(way, e);
+    vec3 old = superquadric_support(s, e);
+    double area = 0.0;
+    for (int k = 1; k <= SIDES; k++) {
+        const double angle = pi * k / SIDES;
+        const vec3 p = superquadric_support(s, v3_axpy(v3_scale(cos(angle), e), sin(angle), f));
+        area += v3_dot(way, v3_cross(old, p));
+        old = p;
+    }
+    return area;
+}
+
+/* Triangles of one octant, whose corners are the even directions of a triangle's barycentric lattice. */
+double superquadric_area(const struct superquadric *s)
+{
+    enum { N = 150 };
+    double area = 0.0;
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N - i; j++) {
+            vec3 p[4];
+            for (int k = 0; k < 4; k++) {
+                const double u = (i + (k == 1 || k == 3)) / (double)N;
+                const double v = (j + (k == 2 || k == 3)) / (double)N;
+                const vec3 x = v3(s->a[0] * u, s->a[1] * v, s->a[2] * fmax(0.0, 1.0 - u - v));
+                p[k] = v3_scale(1.0 / (superquadric_inside(s, x) + 1.0), x);
+            }
+            const vec3 one = v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]));
+            const vec3 two = v3_cross(v3_sub(p[1], p[3]), v3_sub(p[2], p[3]));
+            area += 0.5 * v3_norm(one) + (i + j + 2 <= N ? 0.5 * v3_norm(two) : 0.0);
+        }
+    return 8.0 * area;
 }

@@ -15,7 +15,7 @@
 #define SUPERQUADRIC_H
 
 #include <stdbool.h>
-#include "vec3.h"
+#include "rotation.h"
 
 struct superquadric {
     double a[3];   /* m, half axes */
@@ -38,6 +38,10 @@ double superquadric_inside(const struct superquadric *s, vec3 x);
 /* Outward unit normal of the surface through x/(f + 1); x not 0. */
 vec3 superquadric_normal(const struct superquadric *s, vec3 x);
 
+/* m2; area of the shadow that falls along the unit vector `way`, and of the surface, to 2e-3. */
+double superquadric_shadow(const struct superquadric *s, vec3 way);
+double superquadric_area(const struct superquadric *s);
+
 /* The point of the surface with the outward normal n (any length but 0), and the Hessian of h
  * there (for |n| = 1), finite: radii of curvature beyond 1e8 half axes are cut. */
 vec3 superquadric_support(const struct superquadric *s, vec3 n);
@@ -48,10 +52,11 @@ double superquadric_volume(const struct superquadric *s); /* m3 */
 double superquadric_radius(const struct superquadric *s); /* m, of the bounding sphere */
 void superquadric_inertia(const struct superquadric *s, double i[3]); /* m5, per unit density */
 
-/* A body at its place: the columns of `axes` are its axes in the laboratory's frame. */
+/* A body at its place, its half axes times `size`. */
 struct superquadric_placed {
     const struct superquadric *shape;
-    double axes[9]; /* row by row: x_lab = axes x_body */
+    double size;
+    struct mat3 turn; /* body to lab */
 };
 
 /* Where two bodies come closest, or overlap most shallowly. */

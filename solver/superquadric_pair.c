@@ -19,20 +19,6 @@ static const double aligned =
     1e-7; /* sizes: the linear step from there is good to 1e-12 or so */
 static const double largest_step = 0.7; /* rad */
 
-static inline vec3 to_body(const struct superquadric_placed *b, vec3 n)
-{
-    const double *const q = b->axes;
-    return v3(q[0] * n.x + q[3] * n.y + q[6] * n.z, q[1] * n.x + q[4] * n.y + q[7] * n.z,
-              q[2] * n.x + q[5] * n.y + q[8] * n.z);
-}
-
-static inline vec3 to_lab(const struct superquadric_placed *b, vec3 p)
-{
-    const double *const q = b->axes;
-    return v3(q[0] * p.x + q[1] * p.y + q[2] * p.z, q[3] * p.x + q[4] * p.y + q[5] * p.z,
-              q[6] * p.x + q[7] * p.y + q[8] * p.z);
-}
-
 static inline vec3 times(const struct symmetric *m, vec3 v)
 {
     return v3(m->xx * v.x + m->xy * v.y + m->xz * v.z, m->xy * v.x + m->yy * v.y + m->yz * v.z,
@@ -74,10 +60,12 @@ static inline void side_see(struct side *s, const struct superquadric_placed *b,
                             const struct view *w)
 {
     struct symmetric m;
-    const vec3 u = to_body(b, w->u), v = to_body(b, w->v);
-    s->p = to_lab(b, superquadric_support_curved(b->shape, to_body(b, w->n), &m));
+    const vec3 u = mat3_back(&b->turn, w->u), v = mat3_back(&b->turn, w->v);
+    const vec3 p = superquadric_support_curved(b->shape, mat3_back(&b->turn, w->n), &m);
+    s->p = v3_scale(b->size, mat3_turn(&b->turn, p));
     const vec3 mu = times(&m, u), mv = times(&m, v);
-    s->H = (struct tensor2){v3_dot(u, mu), v3_dot(u, mv), v3_dot(v, mv)};
+    s->H = (struct tensor2){b->size * v3_dot(u, mu), b->size * v3_dot(u, mv),
+                            b->size * v3_dot(v, mv)};
 }
 
 static inline void view_set(struct view *w, const struct superquadric_placed *i,
@@ -135,7 +123,7 @@ static vec3 step_on_surface(const struct superquadric_placed *i,
     const bool first = v3_dot(t, at_i) > v3_dot(t, at_j);
     const struct superquadric_placed *const b = first ? i : j;
     const vec3 p = first ? v3_add(w->i.p, at_i) : v3_add(w->j.p, at_j);
-    return to_lab(b, superquadric_normal(b->shape, to_body(b, p)));
+    return mat3_turn(&b->turn, superquadric_normal(b->shape, mat3_back(&b->turn, p)));
 }
 
 /* From a view next to the solution to the contact, by a linear step. */
@@ -191,8 +179,8 @@ static bool step_take(const struct superquadric_placed *i, const struct superqua
 bool superquadric_meet(const struct superquadric_placed *i, const struct superquadric_placed *j,
                        vec3 apart, double reach, struct superquadric_touch *touch)
 {
-    const double size = i->shape->a[0] + i->shape->a[1] + i->shape->a[2] + j->shape->a[0] +
-                        j->shape->a[1] + j->shape->a[2];
+    const double *const a = i->shape->a, *const b = j->shape->a;
+    const double size = i->size * (a[0] + a[1] + a[2]) + j->size * (b[0] + b[1] + b[2]);
     const double start = v3_dot(touch->normal, touch->normal);
     struct view w, next;
     touch->tries = 1;

@@ -21,15 +21,10 @@ static vec3 direction(void)
     return v3_scale(1.0 / v3_norm(v), v);
 }
 
-static void turn(double axes[9])
+static struct mat3 turn(void)
 {
-    const vec3 a = direction(), c = direction();
-    vec3 b = v3_cross(a, c);
-    b = v3_scale(1.0 / v3_norm(b), b);
-    const vec3 d = v3_cross(a, b);
-    const double all[9] = {a.x, b.x, d.x, a.y, b.y, d.y, a.z, b.z, d.z};
-    for (int k = 0; k < 9; k++)
-        axes[k] = all[k];
+    const double u[4] = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
+    return quat_matrix(quat_unit((struct quat){u[0], u[1], u[2], u[3]}));
 }
 
 static struct superquadric any(double blockiness)
@@ -113,11 +108,8 @@ static double gap_along(const struct superquadric_placed *i,
     const struct superquadric_placed *const both[2] = {i, j};
     double gap = v3_dot(n, apart);
     for (int k = 0; k < 2; k++) {
-        const double *const q = both[k]->axes;
-        const vec3 b =
-            v3(q[0] * n.x + q[3] * n.y + q[6] * n.z, q[1] * n.x + q[4] * n.y + q[7] * n.z,
-               q[2] * n.x + q[5] * n.y + q[8] * n.z);
-        gap -= v3_dot(b, superquadric_support(both[k]->shape, b));
+        const vec3 b = mat3_back(&both[k]->turn, n);
+        gap -= both[k]->size * v3_dot(b, superquadric_support(both[k]->shape, b));
     }
     return gap;
 }
@@ -157,10 +149,9 @@ static void test_pairs(double blockiness, bool deep)
     enum { PAIRS = 60 };
     for (int k = 0; k < PAIRS; k++) {
         const struct superquadric a = any(blockiness), b = any(blockiness);
-        struct superquadric_placed i = {.shape = &a}, j = {.shape = &b};
+        struct superquadric_placed i = {.shape = &a, .size = 1, .turn = turn()},
+                                   j = {.shape = &b, .size = 1, .turn = turn()};
         struct superquadric_touch t = {.normal = {0, 0, 0}};
-        turn(i.axes);
-        turn(j.axes);
         /* Along a line of centres to a gap, or on to an overlap as deep as a run's: followed from
          * where they are apart, as a run does. */
         const vec3 way = direction();
@@ -198,23 +189,13 @@ static void test_frames(void)
     double worst = 0, swapped = 0;
     for (int k = 0; k < 100; k++) {
         const struct superquadric a = any(5), b = any(5);
-        struct superquadric_placed i = {.shape = &a}, j = {.shape = &b}, ti = i, tj = j;
+        struct superquadric_placed i = {.shape = &a, .size = 1, .turn = turn()},
+                                   j = {.shape = &b, .size = 1, .turn = turn()}, ti = i, tj = j;
         struct superquadric_touch t = {0}, u = {0}, s = {0};
-        double frame[9];
-        const vec3 apart = v3_scale(1.4, direction());
-        turn(i.axes);
-        turn(j.axes);
-        turn(frame);
-        for (int r = 0; r < 3; r++)
-            for (int c = 0; c < 3; c++)
-                for (int m = 0; m < 3; m++) {
-                    ti.axes[3 * r + c] += frame[3 * r + m] * i.axes[3 * m + c];
-                    tj.axes[3 * r + c] += frame[3 * r + m] * j.axes[3 * m + c];
-                }
-        const double *const f = frame;
-        const vec3 turned = v3(f[0] * apart.x + f[1] * apart.y + f[2] * apart.z,
-                               f[3] * apart.x + f[4] * apart.y + f[5] * apart.z,
-                               f[6] * apart.x + f[7] * apart.y + f[8] * apart.z);
+        const struct mat3 frame = turn(), back = mat3_transposed(&frame);
+        const vec3 apart = v3_scale(1.4, direction()), turned = mat3_turn(&frame, apart);
+        ti.turn = mat3_between(&back, &i.turn);
+        tj.turn = mat3_between(&back, &j.turn);
         superquadric_meet(&i, &j, apart, 10, &t);
         superquadric_meet(&ti, &tj, turned, 10, &u);
         superquadric_meet(&j, &i, v3_scale(-1, apart), 10, &s);
@@ -229,31 +210,51 @@ static void test_frames(void)
 static void test_exact(void)
 {
     struct superquadric a, b, e;
-    const double one[3] = {1, 1, 1}, half[3] = {0.5, 0.5, 0.5}, long_[3] = {1, 1, 2};
+    const double one[3] = {1, 1, 1}, long_[3] = {1, 1, 2};
     struct superquadric_touch t = {0};
     superquadric_set(&a, one, 2, 2);
-    superquadric_set(&b, half, 2, 2);
+    superquadric_set(&b, one, 2, 2);
     superquadric_set(&e, long_, 2, 2);
-    struct superquadric_placed i = {.shape = &a}, j = {.shape = &b}, up = {.shape = &e};
-    turn(i.axes);
-    turn(j.axes);
-    turn(up.axes);
+    struct superquadric_placed i = {.shape = &a, .size = 1, .turn = turn()},
+                               j = {.shape = &b, .size = 1, .turn = turn()},
+                               up = {.shape = &e, .size = 1, .turn = turn()};
     const vec3 n = direction();
+    j.size = 0.5;
     superquadric_meet(&i, &j, v3_scale(1.45, n), 1, &t);
     check_abs(t.gap, -0.05, 1e-15, "spheres: depth");
     check_abs(v3_norm(v3_sub(t.normal, n)), 0, 1e-15, "spheres: normal");
     check_abs(v3_norm(v3_axpy(t.at_i, 1.0, n)), 0, 1e-14, "spheres: point");
     check_rel(t.r_eff, 1.0 / 3.0, 1e-14, "spheres: reduced radius");
-    const vec3 axis = v3(up.axes[2], up.axes[5], up.axes[8]);
+    const vec3 axis = mat3_turn(&up.turn, v3(0, 0, 1));
     t = (struct superquadric_touch){0};
     superquadric_meet(&up, &j, v3_scale(2.4, axis), 1, &t);
     check_abs(t.gap, -0.1, 1e-14, "a sphere on the tip of an ellipsoid: depth");
     check_rel(t.r_i, 0.5, 1e-12, "radius of its tip b^2/c");
-    const vec3 side = v3(up.axes[0], up.axes[3], up.axes[6]);
+    const vec3 side = mat3_turn(&up.turn, v3(1, 0, 0));
     t = (struct superquadric_touch){0};
     superquadric_meet(&up, &j, v3_scale(1.4, side), 1, &t);
     check_rel(t.r_i, 2.0, 1e-12, "root of the radii 1 and 4 of its side");
     check_rel(t.r_eff, 1.0 / sqrt((1 + 2) * (0.25 + 2)), 1e-12, "reduced radius at its side");
+}
+
+/* Areas: exact for a spheroid; Cauchy's theorem, surface = 4 mean shadows. */
+static void test_areas(void)
+{
+    struct superquadric s;
+    const double flat[3] = {1, 1, 0.5}, axes[3] = {0.7, 1, 1.2}, e = sqrt(0.75);
+    superquadric_set(&s, flat, 2, 2);
+    check_rel(superquadric_area(&s), 2 * PI * (1 + 0.25 / e * atanh(e)), 1e-3,
+              "surface of an oblate spheroid");
+    check_rel(superquadric_shadow(&s, v3(1, 0, 0)), PI * 0.5, 1e-12,
+              "its shadow from the side");
+    superquadric_set(&s, axes, 5, 3);
+    double mean = 0;
+    enum { N = 3000 };
+    for (int k = 0; k < N; k++) {
+        const double z = 1 - (2 * k + 1) / (double)N, r = sqrt(1 - z * z), a = 2.39996323 * k;
+        mean += superquadric_shadow(&s, v3(r * cos(a), r * sin(a), z)) / N;
+    }
+    check_rel(superquadric_area(&s), 4 * mean, 2e-3, "surface and mean shadow");
 }
 
 int main(void)
@@ -265,6 +266,7 @@ int main(void)
     test_support(2);
     test_support(8);
     test_exact();
+    test_areas();
     test_frames();
     test_pairs(2, false);
     test_pairs(2, true);
