@@ -51,11 +51,12 @@ comma := ,
 empty :=
 space := $(empty) $(empty)
 LDFLAGS := -fopenmp $(if $(filter debug,$(MODE)),-fsanitize=address$(comma)undefined) -Wl,--as-needed
-LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lm
+LIBS := -lnetcdf -lfftw3 -lgsl -lgslcblas -linih -ludunits2 -lqhull_r -lm
 
 LIB := $(BUILD)/libsilt.a
 WALL_KINDS := $(patsubst solver/walls/%.c,%,$(wildcard solver/walls/*.c))
-LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c))) \
+LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c)) \
+             $(wildcard shapes/geometry/*.c)) \
            $(WALL_KINDS:%=$(BUILD)/obj/solver/walls/%.o) $(BUILD)/obj/lists/walls.o
 BIN := $(BUILD)/bin/$(NAME)/silt
 ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))

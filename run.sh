@@ -41,6 +41,7 @@ missing_packages() {
     [ -e $include/gsl/gsl_rng.h ] || echo libgsl-dev
     [ -e $include/fftw3.h ] || echo libfftw3-dev
     [ -e $include/netcdf.h ] || echo libnetcdf-dev
+    [ -e $include/libqhull_r/libqhull_r.h ] || echo libqhull-dev
     [ -e $include/ini.h ] || echo libinih-dev
     [ -e $include/udunits2.h ] || [ -e $include/udunits2/udunits2.h ] || echo libudunits2-dev
 }
