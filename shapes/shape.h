@@ -87,6 +87,10 @@ struct shape_point {
      * wanted, and say so in the shape's head. */
     double r_i, r_j;
     double scale; /* m; overlap over this is what run.overlap_max limits */
+    double
+        share; /* where several points share one stiffness (the corners of two faces in contact):
+                     the part of this one, by which the laws' forces, couples and energy are
+                     multiplied. 0 is taken as 1: a point of its own */
 };
 
 /* The point at which two balls touch: the rounded vertices, edges and faces of shapes. Centres as
@@ -114,6 +118,8 @@ static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, d
 struct shape_ball {
     vec3 centre;
     double radius;
+    double
+        curve; /* radius of curvature for the laws' r_eff, where it is not `radius`; 0: it is */
 };
 
 /* A flat element of a wall as seen by a grain: m, from x_i, in the lab. */

@@ -7,9 +7,9 @@ enum { TURNS = 1000 };
 /* What of a touches what of b. */
 enum meeting { FACES, EDGES, CORNER, ANYWHERE, PARALLEL_EDGES, ROD };
 
-static const char *const meeting_name[] = {"face to face",        "edge to edge",
-                                           "vertex to face",      "anywhere",
-                                           "edges in parallel",   "long rod and plate"};
+static const char *const meeting_name[] = {"face to face",      "edge to edge",
+                                           "vertex to face",    "anywhere",
+                                           "edges in parallel", "long rod and plate"};
 
 /* Turns cube a so that its face, edge or vertex looks along -z; then the whole pair is turned. */
 static void set_pair(gsl_rng *r, enum meeting how, double gap, double spread, struct placed *a,
@@ -43,7 +43,8 @@ static void set_pair(gsl_rng *r, enum meeting how, double gap, double spread, st
         b->axes[k] = turned_by(whole, second[k]);
     }
     b->at = v3_scale(3.0, any_direction(r));
-    a->at = v3_add(b->at, turned_by(whole, v3_add(v3_scale(spread, aside), v3(0.0, 0.0, up + gap))));
+    a->at = v3_add(b->at,
+                   turned_by(whole, v3_add(v3_scale(spread, aside), v3(0.0, 0.0, up + gap))));
 }
 
 static void check_cubes(gsl_rng *r, enum meeting how)
@@ -58,9 +59,9 @@ static void check_cubes(gsl_rng *r, enum meeting how)
         place(&a, p);
         place(&b, p);
         gap_find(&a.points, p, &b.points, p, b.axes, 1e9, &memory, &gap);
-        worst = fmax(worst,
-                     fabs(gap.distance - brute_distance(p, &a.points, p, &b.points)));
-        off = fmax(off, v3_norm(v3_axpy(v3_sub(gap.on_a, gap.on_b), -gap.distance, gap.normal)));
+        worst = fmax(worst, fabs(gap.distance - brute_distance(p, &a.points, p, &b.points)));
+        off =
+            fmax(off, v3_norm(v3_axpy(v3_sub(gap.on_a, gap.on_b), -gap.distance, gap.normal)));
         nearness = fmax(nearness, gap.distance - gap_along(&a.points, &b.points, gap.normal));
     }
     check(worst < 1e-10, "two cubes %s, %d turns: distance within %.2g of brute force",
@@ -78,7 +79,7 @@ static void check_hulls(gsl_rng *r)
     double worst = 0.0, warm = 0.0, least = (double)INFINITY;
     for (int k = 0; k < TURNS; k++) {
         struct polyhedron *const p = cloud_of(r, 4 + k % 30, v3(1.0, 1.0, 1.0)),
-                                *const q = cloud_of(r, 4 + k % 17, v3(5.0, 1.0, 0.05));
+                                 *const q = cloud_of(r, 4 + k % 17, v3(5.0, 1.0, 0.05));
         struct gap_memory memory = {0};
         struct gap gap, again;
         const vec3 way = any_direction(r);
@@ -96,14 +97,15 @@ static void check_hulls(gsl_rng *r)
         gap_find(&a.points, p, &b.points, q, b.axes, 1e9, &memory, &gap);
         memory.n = 0;
         gap_find(&a.points, p, &b.points, q, b.axes, 1e9, &memory, &again);
-        warm = fmax(warm, fabs(gap.distance - again.distance) + v3_norm(v3_sub(gap.normal, again.normal)));
+        warm = fmax(warm, fabs(gap.distance - again.distance) +
+                              v3_norm(v3_sub(gap.normal, again.normal)));
         worst = fmax(worst, fabs(gap.distance - brute_distance(p, &a.points, q, &b.points)));
         least = fmin(least, gap.distance);
         polyhedron_free(p);
         polyhedron_free(q);
     }
-    check(worst < 1e-10, "%d pairs of hulls, down to %.1g apart: within %.2g of brute force", TURNS,
-          least, worst);
+    check(worst < 1e-10, "%d pairs of hulls, down to %.1g apart: within %.2g of brute force",
+          TURNS, least, worst);
     check(warm < 1e-9, "  from memory or not: distance and normal agree within %.2g", warm);
 }
 
@@ -157,8 +159,8 @@ static void check_reach(gsl_rng *r)
         wrong += cut.distance > near.distance + 1e-12;
         wrong += near.distance < 0.3 && fabs(cut.distance - near.distance) > 1e-12;
     }
-    check(wrong == 0 && far > 100, "a pair further than the reach is told by a bound (%d of %d)",
-          far, TURNS);
+    check(wrong == 0 && far > 100,
+          "a pair further than the reach is told by a bound (%d of %d)", far, TURNS);
     polyhedron_free(p);
 }
 

@@ -20,7 +20,8 @@ static void check_box(void)
     check_rel(m.volume, v, 1e-14, "volume of a box");
     check_rel(v3_norm(v3_sub(centre, at)) + 1.0, 1.0, 1e-14, "centre of a box");
     check_rel(inertia[0], v * (a.x * a.x + a.y * a.y) / 12.0, 1e-12, "inertia of a box, least");
-    check_rel(inertia[1], v * (a.y * a.y + a.z * a.z) / 12.0, 1e-12, "inertia of a box, middle");
+    check_rel(inertia[1], v * (a.y * a.y + a.z * a.z) / 12.0, 1e-12,
+              "inertia of a box, middle");
     check_rel(inertia[2], v * (a.x * a.x + a.z * a.z) / 12.0, 1e-12, "inertia of a box, most");
     const double r = 0.173, s = 2.0 * (a.x * a.y + a.y * a.z + a.x * a.z);
     const double want = v + s * r + PI * r * r * (a.x + a.y + a.z) + 4.0 / 3.0 * PI * r * r * r;
@@ -55,10 +56,11 @@ static void check_tetrahedron(void)
             zz += a.z * b.z;
         }
     /* the trace is free of the axes */
-    check_rel(inertia[0] + inertia[1] + inertia[2], m.volume / 10.0 * 2.0 * (xx + yy + zz), 1e-12,
-              "trace of a tetrahedron's inertia");
+    check_rel(inertia[0] + inertia[1] + inertia[2], m.volume / 10.0 * 2.0 * (xx + yy + zz),
+              1e-12, "trace of a tetrahedron's inertia");
     const vec3 e1 = axes[0];
-    check_rel(v3_norm(v3_cross(axes[0], axes[1])), 1.0, 1e-12, "principal axes are at right angles");
+    check_rel(v3_norm(v3_cross(axes[0], axes[1])), 1.0, 1e-12,
+              "principal axes are at right angles");
     check_rel(v3_dot(v3_cross(axes[0], axes[1]), axes[2]), 1.0, 1e-12, "and right-handed");
     check(v3_norm(e1) > 0.0 && inertia[0] <= inertia[1] && inertia[1] <= inertia[2],
           "moments ascend");
@@ -70,7 +72,8 @@ static double worst(const struct moments *a, const struct moments *b)
     const double scale = a->xx + a->yy + a->zz;
     double w = fabs(a->volume - b->volume) / a->volume;
     w = fmax(w, v3_norm(v3_sub(a->first, b->first)) / (1e-300 + sqrt(a->volume * scale)));
-    w = fmax(w, fmax(fabs(a->xx - b->xx), fmax(fabs(a->yy - b->yy), fabs(a->zz - b->zz))) / scale);
+    w = fmax(w,
+             fmax(fabs(a->xx - b->xx), fmax(fabs(a->yy - b->yy), fabs(a->zz - b->zz))) / scale);
     return fmax(w, fmax(fabs(a->xy - b->xy), fmax(fabs(a->xz - b->xz), fabs(a->yz - b->yz))) /
                        scale);
 }
@@ -93,8 +96,8 @@ static void check_clouds(void)
             euler += p->edge_face[e][0] == p->edge_face[e][1];
         polyhedron_free(p);
     }
-    check(steiner < 1e-12, "slabs, sectors and cones add up to Steiner's volume, 200 hulls: %.2g",
-          steiner);
+    check(steiner < 1e-12,
+          "slabs, sectors and cones add up to Steiner's volume, 200 hulls: %.2g", steiner);
     check(euler == 0.0, "V - E + F = 2 and two faces at an edge, 200 hulls");
     struct polyhedron *const tiny = box_of(v3(1e-7, 1e-7, 1e-7), v3(0.4, -0.3, 0.2));
     struct moments a = {0.0}, b = {0.0};
@@ -124,7 +127,8 @@ static void check_dilated_inertia(void)
                 if (polyhedron_distance(p, x) < d)
                     moments_add_brick(&g, x, h);
             }
-    check(worst(&m, &g) < 3e-4, "all moments against a grid of %d^3 cells: %.2g", n, worst(&m, &g));
+    check(worst(&m, &g) < 3e-4, "all moments against a grid of %d^3 cells: %.2g", n,
+          worst(&m, &g));
     polyhedron_free(p);
 }
 
@@ -135,13 +139,11 @@ static void check_refused(void)
     for (int k = 0; k < 6; k++)
         point[k] = v3(cos(k), sin(k), 0.0);
     bool none = polyhedron_hull(point, 6, &why) == NULL;
-    check(none && strstr(why, "plane"),
-          "points of a plane are refused: %s", why);
+    check(none && strstr(why, "plane"), "points of a plane are refused: %s", why);
     xfree(why);
     point[2].z = (double)NAN;
     none = polyhedron_hull(point, 6, &why) == NULL;
-    check(none && strstr(why, "finite"),
-          "a point that is not finite is refused: %s", why);
+    check(none && strstr(why, "finite"), "a point that is not finite is refused: %s", why);
     xfree(why);
     none = polyhedron_hull(point, 3, &why) == NULL;
     check(none && strstr(why, "4"), "three points: %s", why);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum { ROUNDS = 64 };
-#define FLAT 1e-10 /* height over length of a tetrahedron that has no inside */
+#define FLAT  1e-10 /* height over length of a tetrahedron that has no inside */
 #define TIGHT 1e-15 /* of the distance squared: what a further vertex must gain */
 
 /* Corners of the set of differences, and the part of each in the nearest point. */
@@ -187,7 +187,8 @@ static bool holds(const struct simplex *s, int a, int b)
     return false;
 }
 
-static void add(struct simplex *s, const struct points *a, const struct points *b, int ka, int kb)
+static void add(struct simplex *s, const struct points *a, const struct points *b, int ka,
+                int kb)
 {
     s->a[s->n] = ka;
     s->b[s->n] = kb;

@@ -26,8 +26,7 @@ static void add_second(struct moments *m, double weight, vec3 a, vec3 b)
 /* Of the tetrahedron a b c d: int x x = V/20 (sum of x x + (sum of x)(sum of x)). */
 static void add_tetrahedron(struct moments *m, vec3 a, vec3 b, vec3 c, vec3 d)
 {
-    const double v =
-        v3_dot(v3_sub(b, a), v3_cross(v3_sub(c, a), v3_sub(d, a))) / 6.0;
+    const double v = v3_dot(v3_sub(b, a), v3_cross(v3_sub(c, a), v3_sub(d, a))) / 6.0;
     const vec3 sum = v3_add(v3_add(a, b), v3_add(c, d)), corner[4] = {a, b, c, d};
     m->volume += v;
     m->first = v3_axpy(m->first, 0.25 * v, sum);
@@ -81,8 +80,8 @@ static double edge_angle(const struct polyhedron *p, int e, vec3 along)
 
 static vec3 edge_along(const struct polyhedron *p, int e, double *length)
 {
-    const vec3 along = v3_sub(polyhedron_vertex(p, p->edge[e][1]),
-                              polyhedron_vertex(p, p->edge[e][0]));
+    const vec3 along =
+        v3_sub(polyhedron_vertex(p, p->edge[e][1]), polyhedron_vertex(p, p->edge[e][0]));
     *length = v3_norm(along);
     return v3_scale(1.0 / *length, along);
 }
@@ -103,8 +102,7 @@ static void add_sector(struct moments *m, const struct polyhedron *p, int e, dou
     const vec3 middle = v3_axpy(from, 0.5 * length, along);
     const double area = 0.5 * q * r * r, volume = area * length;
     /* int of s (u cos + w sin) over the sector, per length */
-    const vec3 arm = v3_scale(r * r * r / 3.0,
-                              v3_axpy(v3_scale(sin(q), u), 1.0 - cos(q), w));
+    const vec3 arm = v3_scale(r * r * r / 3.0, v3_axpy(v3_scale(sin(q), u), 1.0 - cos(q), w));
     const double fourth = 0.25 * r * r * r * r * length;
     m->volume += volume;
     m->first = v3_add(m->first, v3_axpy(v3_scale(volume, middle), length, arm));

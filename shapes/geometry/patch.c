@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979323846
-#define UPRIGHT 1e-9   /* cosine below which a face counts as parallel to the normal */
-#define INSIDE 1e-9    /* of the size: how far outside of a face a point may lie that is on it */
-#define PARALLEL 1e-9  /* sine below which edges do not cross */
-#define SAME 1e-6      /* of the size: corners nearer than this are one */
+#define PI       3.14159265358979323846
+#define UPRIGHT  1e-9 /* cosine below which a face counts as parallel to the normal */
+#define INSIDE   1e-9 /* of the size: how far outside of a face a point may lie that is on it */
+#define PARALLEL 1e-9 /* sine below which edges do not cross */
+#define SAME     1e-6 /* of the size: corners nearer than this are one */
 #define NO_SHARE 1e-12
 
 /* Corners of the gap over the plane across the normal. */

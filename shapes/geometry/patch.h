@@ -25,7 +25,7 @@ enum { PATCH_MOST = 32, PATCH_NEAR = 64 };
 /* A polyhedron in the frame of the pair. */
 struct patch_body {
     const struct polyhedron *p;
-    struct points at;   /* its vertices in the frame of the pair */
+    struct points at;    /* its vertices in the frame of the pair */
     vec3 axes[3], place; /* x = place + scale (axes[0] x_own.x + ...) */
     double scale;
 };

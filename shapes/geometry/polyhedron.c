@@ -15,8 +15,9 @@ void polyhedron_free(struct polyhedron *p)
 {
     if (!p)
         return;
-    void *const all[] = {p->x,    p->y,         p->z,          p->nx,   p->ny,        p->nz,  p->off,
-                         p->edge, p->edge_face, p->loop_begin, p->loop, p->fan_begin, p->fan, p};
+    void *const all[] = {p->x,   p->y,    p->z,         p->nx,         p->ny,   p->nz,
+                         p->off, p->edge, p->edge_face, p->loop_begin, p->loop, p->fan_begin,
+                         p->fan, p};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         xfree(all[k]);
 }

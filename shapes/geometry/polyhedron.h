@@ -17,12 +17,12 @@ struct polyhedron {
     double *x, *y, *z;          /* m, vertices */
     double *nx, *ny, *nz, *off; /* faces: outward unit normal; normal . point = off, m */
     int (*edge)[2];             /* vertices of an edge */
-    int (*edge_face)[2];        /* faces on its left and right, going from its first vertex to its
+    int (*edge_face)[2];    /* faces on its left and right, going from its first vertex to its
                                    second, seen from outside */
-    int *loop_begin, *loop;     /* vertices of face f, counter-clockwise from outside:
+    int *loop_begin, *loop; /* vertices of face f, counter-clockwise from outside:
                                    loop[loop_begin[f]] ... loop[loop_begin[f + 1] - 1] */
-    int *fan_begin, *fan;       /* likewise the faces round a vertex, counter-clockwise */
-    double radius;              /* m, of the sphere about the origin that holds it */
+    int *fan_begin, *fan;   /* likewise the faces round a vertex, counter-clockwise */
+    double radius;          /* m, of the sphere about the origin that holds it */
 };
 
 /* The convex hull of n points [Barber96]; faces that lie in one plane are one face. NULL, and why
@@ -44,8 +44,8 @@ static inline vec3 polyhedron_normal(const struct polyhedron *p, int f)
 
 /* Moments of a body of density 1: its volume, the integrals of x and of x x. */
 struct moments {
-    double volume; /* m3 */
-    vec3 first;    /* m4 */
+    double volume;                 /* m3 */
+    vec3 first;                    /* m4 */
     double xx, yy, zz, xy, xz, yz; /* m5 */
 };
 
