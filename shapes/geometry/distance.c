@@ -15,22 +15,37 @@ struct simplex {
     double part[4];
 };
 
+typedef double lanes __attribute__((vector_size(POLYHEDRON_LANES * sizeof(double))));
+typedef long long counts __attribute__((vector_size(POLYHEDRON_LANES * sizeof(long long))));
+
+static inline lanes load(const double *x)
+{
+    lanes out;
+    memcpy(&out, x, sizeof out);
+    return out;
+}
+
+/* A lane each looks through every eighth vertex; then the best of the lanes, the first of equals. */
 int points_highest(const struct points *p, vec3 along, double *height)
 {
-    double h[POLYHEDRON_MOST], most;
-    int best = 0;
-    const int room = p->room;
-    const double *const restrict x = p->x, *const restrict y = p->y, *const restrict z = p->z;
-#pragma omp simd
-    for (int k = 0; k < room; k++)
-        h[k] = along.x * x[k] + along.y * y[k] + along.z * z[k];
-    most = h[0];
-    for (int k = 1; k < room; k++) {
-        best = h[k] > most ? k : best;
-        most = h[k] > most ? h[k] : most;
+    counts at = {0, 1, 2, 3, 4, 5, 6, 7}, best = at;
+    lanes most = along.x * load(p->x) + along.y * load(p->y) + along.z * load(p->z);
+    for (int k = POLYHEDRON_LANES; k < p->room; k += POLYHEDRON_LANES) {
+        at += POLYHEDRON_LANES;
+        const lanes h =
+            along.x * load(p->x + k) + along.y * load(p->y + k) + along.z * load(p->z + k);
+        const counts higher = h > most;
+        most = higher ? h : most;
+        best = higher ? at : best;
     }
-    *height = most;
-    return best;
+    double top = most[0];
+    long long index = best[0];
+    for (int l = 1; l < POLYHEDRON_LANES; l++) {
+        index = most[l] > top ? best[l] : index;
+        top = most[l] > top ? most[l] : top;
+    }
+    *height = top;
+    return (int)index;
 }
 
 int points_lowest(const struct points *p, vec3 along, double *height)
@@ -338,8 +353,9 @@ void gap_find(const struct points *a, const struct polyhedron *pa, const struct 
 
 double polyhedron_distance(const struct polyhedron *p, vec3 x)
 {
-    const double px[1] = {x.x}, py[1] = {x.y}, pz[1] = {x.z};
-    const struct points a = {1, px, py, pz}, b = {p->vertex_room, p->x, p->y, p->z};
+    double px[POLYHEDRON_LANES], py[POLYHEDRON_LANES], pz[POLYHEDRON_LANES];
+    const struct points a = {POLYHEDRON_LANES, px, py, pz},
+                        b = {p->vertex_room, p->x, p->y, p->z};
     struct gap_memory memory = {0};
     struct gap gap;
     double out = -(double)INFINITY;
@@ -347,6 +363,11 @@ double polyhedron_distance(const struct polyhedron *p, vec3 x)
         out = fmax(out, v3_dot(polyhedron_normal(p, f), x) - p->off[f]);
     if (out <= 0.0)
         return 0.0;
+    for (int k = 0; k < POLYHEDRON_LANES; k++) {
+        px[k] = x.x;
+        py[k] = x.y;
+        pz[k] = x.z;
+    }
     gap_find(&a, NULL, &b, NULL, NULL, (double)INFINITY, &memory, &gap);
     return gap.distance;
 }
