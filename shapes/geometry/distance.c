@@ -35,8 +35,8 @@ int points_highest(const struct points *p, vec3 along, double *height)
         const lanes h =
             along.x * load(p->x + k) + along.y * load(p->y + k) + along.z * load(p->z + k);
         const counts higher = h > most;
-        most = higher ? h : most;
-        best = higher ? at : best;
+        most = (lanes)(((counts)h & higher) | ((counts)most & ~higher));
+        best = (at & higher) | (best & ~higher);
     }
     double top = most[0];
     long long index = best[0];
