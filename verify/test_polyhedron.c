@@ -145,6 +145,7 @@ static void check_refused(void)
     none = polyhedron_hull(point, 6, &why) == NULL;
     check(none && strstr(why, "finite"), "a point that is not finite is refused: %s", why);
     xfree(why);
+    point[2].z = 0.0;
     none = polyhedron_hull(point, 3, &why) == NULL;
     check(none && strstr(why, "4"), "three points: %s", why);
     xfree(why);
