@@ -59,6 +59,7 @@ LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard
              $(wildcard shapes/geometry/*.c)) \
            $(WALL_KINDS:%=$(BUILD)/obj/solver/walls/%.o) $(BUILD)/obj/lists/walls.o
 BIN := $(BUILD)/bin/$(NAME)/silt
+STUDY := $(BUILD)/libstudy.a
 ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))
 SHARED := $(patsubst %.c,$(BUILD)/answers/%.so,$(ALL_ANSWERS))
 TOOLS := $(patsubst tools/%.c,$(BUILD)/%,$(wildcard tools/*.c))
@@ -111,8 +112,13 @@ $(BUILD)/answers/%.so: $(BUILD)/obj/%.o
 # Tools link the first answers of each slot, and show the library's symbols to others they load.
 FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
          $(addsuffix /none,$(filter-out shapes,$(SLOT_DIRS))) lists/forces-none)
-$(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(LIB)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(LIB) $(LIBS) -ldl
+$(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(STUDY) $(LIB)
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(STUDY) $(LIB) $(LIBS) -ldl
+
+# What the tools of studies share.
+$(STUDY): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/study/*.c))
+	@rm -f $@
+	@ar rcs $@ $^
 
 # A test holds the whole library and one answer per slot: the first of each folder that its line
 # "slots: contact/linear ..." names, or else none; of forces/ the standard ones, where it has a fluid, and
@@ -127,11 +133,11 @@ forces_named = $(sort $(patsubst forces/%,%,$(filter forces/%,$(call slot_line,$
 answers_of = $(call slots_of,$(1)) \
              $(call forces_of,$(if $(forces_named),$(subst $(space),+,$(forces_named)),none))
 .SECONDEXPANSION:
-$(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(SHARED) \
+$(BUILD)/verify/%: $(BUILD)/obj/verify/%.o $(LIB) $(STUDY) $(SHARED) \
                    $$(addprefix $(BUILD)/obj/,$$(addsuffix .o,$$(call answers_of,verify/$$*)))
 	@mkdir -p $(@D)
 	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(patsubst %,$(BUILD)/obj/%.o,$(call answers_of,verify/$*)) \
-	  -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
+	  $(STUDY) -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive $(LIBS) -ldl
 
 # A bench likewise, without what it does not refer to.
 $(BUILD)/bench/%: $(BUILD)/obj/bench/%.o $(LIB) \

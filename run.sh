@@ -15,6 +15,10 @@ usage() {
                          build what the scene requires, run it, draw; default: scenes/packed_bed.ini
 ./run.sh check SCENE [section.key=value ...]
                          the feasibility report: every limit as a ratio; runs nothing
+./run.sh trade SCENE axis=values ... [--within 5%]
+                         error against cost; axis: a key, a slot, real, threads, a named axis
+./run.sh build SCENE [section.key=value ...]
+                         the path of the binary for the scene
 ./run.sh plot DIR        the pictures of a run again
 ./run.sh modules [SLOT]  every answer of every slot (of one): equation, source, range, keys
 ./run.sh keys            every key of a scene: unit, range, default, meaning
@@ -181,6 +185,36 @@ run_scene() {
     exit $status
 }
 
+# trade, extremes: the scene and -o as the caller means them, everything else as it is.
+run_study() {
+    local verb=$1 arguments=() found=
+    shift
+    while [ $# -gt 0 ]; do
+        case $1 in
+            -o)
+                [ -n "${2:-}" ] || refuse "$1 needs a value"
+                arguments+=(-o "$(from_caller "$2")")
+                shift
+                ;;
+            --within | --error | --quantity | --against | --plan | --cost | --repeats | --timeout | -j)
+                [ -n "${2:-}" ] || refuse "$1 needs a value"
+                arguments+=("$1" "$2")
+                shift
+                ;;
+            -* | *=*) arguments+=("$1") ;;
+            *)
+                [ -z "$found" ] || refuse "one scene only, not also $1 (./run.sh help)"
+                found=$(find_scene "$1")
+                arguments+=("$found")
+                ;;
+        esac
+        shift
+    done
+    [ -n "$found" ] || refuse "usage: ./run.sh $verb SCENE axis=values ... (./run.sh help)"
+    build "$bin/front" "$bin/$verb"
+    REAL="$real" exec "$bin/$verb" "${arguments[@]}"
+}
+
 cd "$root"
 case ${1:-} in
     help | -h | --help)
@@ -196,6 +230,18 @@ case ${1:-} in
         install_packages
         build "$bin/front" answers
         "$bin/front" "$@"
+        ;;
+    build)
+        shift
+        parse "$@"
+        [ -n "$scene" ] || refuse "usage: ./run.sh build SCENE [section.key=value ...]"
+        scene=$(find_scene "$scene")
+        build_scene
+        echo "$binary"
+        ;;
+    trade | extremes)
+        install_packages
+        run_study "$@"
         ;;
     plot)
         [ $# -eq 2 ] || refuse "usage: ./run.sh plot DIR"

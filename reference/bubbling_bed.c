@@ -142,6 +142,7 @@ void reference_report(struct sim *s)
     summary_number(&s->summary, "drop_deviation", spread, "Pa");
     summary_number(&s->summary, "drop_error", error, "1");
     summary_number(&s->summary, "bed_mean_height", mean_height(s), "m");
+    summary_reference(&s->summary, error, p->tolerance);
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s pressure drop %.1f Pa from %g s on (deviation %.1f, %.1f to %.1f), "
            "buoyant "

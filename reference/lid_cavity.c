@@ -137,6 +137,7 @@ void reference_report(struct sim *s)
     }
     const bool good = worst <= p->tolerance;
     summary_number(&s->summary, "cavity_error", worst, "1");
+    summary_reference(&s->summary, worst, p->tolerance);
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s largest error on the centre lines %.2e of the lid's velocity, "
            "tolerance %g\n",

@@ -359,6 +359,7 @@ void reference_report(struct sim *s)
         printf("reference: FAIL no level of flow was measured with the bed fixed\n");
         good = false;
     }
+    summary_reference(sum, fixed > 0 ? profile : (double)NAN, p->tolerance_drop);
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
 }
 

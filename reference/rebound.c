@@ -180,6 +180,7 @@ void reference_report(struct sim *s)
     const bool good = bounces > 0 && worst <= p->tolerance;
     summary_number(&s->summary, "bounces", bounces, "1");
     summary_number(&s->summary, "height_error", worst, "1");
+    summary_reference(&s->summary, bounces > 0 ? worst : (double)NAN, p->tolerance);
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s heights after %d bounces, largest error %.4f %%, tolerance %g %%\n",
            good ? "pass" : "FAIL", bounces, 100.0 * worst, 100.0 * p->tolerance);

@@ -253,6 +253,7 @@ void reference_report(struct sim *s)
     printf("reference: %s velocity at t = %g s, %.6g m/s against %.6g m/s, %+.4f %%, tolerance "
            "%g %%\n",
            good ? "pass" : "FAIL", p->t, p->speed, exact, 100.0 * error, 100.0 * p->tolerance);
+    summary_reference(sum, error, p->tolerance);
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
 }
 

@@ -37,10 +37,10 @@ char *picture_scene(const struct run_file *r)
     return scene;
 }
 
-struct picture picture_open(const struct run_file *r, const char *name, int width, int height)
+struct picture picture_open_in(const char *directory, const char *name, int width, int height)
 {
     struct picture p = {
-        .path = xprintf("%s/%s", r->directory, name), .width = width, .height = height};
+        .path = xprintf("%s/%s", directory, name), .width = width, .height = height};
     p.part = xprintf("%s.part", p.path);
     p.gnuplot = popen("gnuplot", "w");
     if (!p.gnuplot)
@@ -54,9 +54,15 @@ struct picture picture_open(const struct run_file *r, const char *name, int widt
     fprintf(to, "set border 3 lc '#444444'\nset tics nomirror out scale 0.6 tc '#333333'\n"
                 "set format '%%g'\nset grid lt 1 lc '#dcdcdc' lw 0.7\n"
                 "set key tc '#333333' Left reverse samplen 2.6 spacing 1.3 noenhanced\n");
+    return p;
+}
+
+struct picture picture_open(const struct run_file *r, const char *name, int width, int height)
+{
+    struct picture p = picture_open_in(r->directory, name, width, height);
     char *const revision = run_text(r, NC_GLOBAL, "revision");
     char *const footer = xprintf("silt %s", revision);
-    picture_text(to, "label 1", footer,
+    picture_text(p.gnuplot, "label 1", footer,
                  "at screen 0.992,0.014 right font ',9' tc '#888888' noenhanced");
     xfree(revision);
     xfree(footer);

@@ -16,7 +16,9 @@ struct picture {
 extern const char *const picture_colour[PICTURE_COLOURS];
 
 struct picture picture_open(const struct run_file *r, const char *name, int width, int height);
-void picture_close(struct picture *p); /* EXIT_WRITE where gnuplot could not draw */
+struct picture picture_open_in(const char *directory, const char *name, int width,
+                               int height); /* likewise, of no run */
+void picture_close(struct picture *p);      /* EXIT_WRITE where gnuplot could not draw */
 
 char *picture_quoted(const char *text); /* as a string of gnuplot, in quotes; xfree it */
 /* Sends: set WHAT 'text' OPTIONS */

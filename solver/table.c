@@ -114,6 +114,12 @@ void summary_text(struct summary *s, const char *key, const char *format, ...)
     l->number = (double)NAN;
 }
 
+void summary_reference(struct summary *s, double error, double tolerance)
+{
+    summary_number(s, "reference_error", error, "1");
+    summary_number(s, "reference_tolerance", tolerance, "1");
+}
+
 const struct summary_line *summary_find(const struct summary *s, const char *key)
 {
     for (int i = 0; i < s->n; i++)

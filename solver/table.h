@@ -109,6 +109,9 @@ struct summary {
 void summary_number(struct summary *s, const char *key, double value, const char *unit);
 void summary_text(struct summary *s, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* What a study compares: the error against the reference and the tolerance for it, both relative,
+ * as reference_error and reference_tolerance. */
+void summary_reference(struct summary *s, double error, double tolerance);
 const struct summary_line *summary_find(const struct summary *s, const char *key); /* or NULL */
 
 void tables_free(struct tables *t);

@@ -1,0 +1,194 @@
+/* trade_picture.c - trade.png: error against cost, both logarithmic, the front as a line. Points of
+ * the front are labelled by their axes, the others by their number in trade.csv. */
+#include <string.h>
+#include "../../solver/picture.h"
+#include "trade.h"
+
+#define LEAST_SHOWN 1e-16 /* an error of 0 is shown here */
+
+enum { MOST_NUMBERED = 60, MOST_LEGEND = 8 };
+
+/* "ergun, 2": the values alone, of axes that vary. */
+static char *short_label(const struct study *s, const struct variant *v)
+{
+    char *text = xstrdup("");
+    for (int a = 0; a < s->n_axes; a++) {
+        if (v->choice[a] < 0)
+            continue;
+        char *const longer =
+            xprintf("%s%s%s", text, text[0] ? ", " : "", s->axis[a].value[v->choice[a]]);
+        xfree(text);
+        text = longer;
+    }
+    return text;
+}
+
+static bool shown(const struct trade *t, int i)
+{
+    return isfinite(t->cost[i]) && isfinite(t->error[i]) && t->cost[i] > 0.0;
+}
+
+/* The axis of words (or else the first) colours the points. */
+static int colour_axis(const struct study *s)
+{
+    for (int a = 0; a < s->n_axes; a++)
+        if (s->axis[a].words && s->axis[a].n <= MOST_LEGEND)
+            return a;
+    for (int a = 0; a < s->n_axes; a++)
+        if (s->axis[a].n <= MOST_LEGEND)
+            return a;
+    return -1;
+}
+
+static void send_points(FILE *to, const struct trade *t, int axis)
+{
+    const struct study *const s = &t->study;
+    const int groups = axis < 0 ? 1 : s->axis[axis].n;
+    for (int g = 0; g < groups; g++) {
+        fprintf(to, "$p%d << END\n", g);
+        for (int i = 0; i < s->n; i++)
+            if (shown(t, i) && (axis < 0 || s->variant[i]->choice[axis] == g))
+                fprintf(to, "%.10g %.10g %.10g %.10g\n", t->cost[i],
+                        fmax(t->error[i], LEAST_SHOWN), t->low[i], t->high[i]);
+        fprintf(to, "NaN NaN NaN NaN\nEND\n");
+    }
+}
+
+/* In order of cost. */
+static int front_order(const struct trade *t, int *order)
+{
+    int n = 0;
+    for (int i = 0; i < t->study.n; i++) {
+        if (!t->front[i] || !shown(t, i))
+            continue;
+        int k = n++;
+        for (; k > 0 && t->cost[order[k - 1]] > t->cost[i]; k--)
+            order[k] = order[k - 1];
+        order[k] = i;
+    }
+    return n;
+}
+
+static void send_labels(FILE *to, const struct trade *t, const int *order, int n)
+{
+    fprintf(to, "$front << END\n");
+    for (int k = 0; k < n; k++)
+        fprintf(to, "%.10g %.10g\n", t->cost[order[k]], fmax(t->error[order[k]], LEAST_SHOWN));
+    fprintf(to, "NaN NaN\nEND\n");
+    for (int k = 0; k < n; k++) {
+        const int i = order[k];
+        char *const label = short_label(&t->study, t->study.variant[i]);
+        char *const text = xprintf("%d: %s", t->study.variant[i]->number, label);
+        char *const what = xprintf("label %d", 100 + k);
+        char *const options =
+            xprintf("at %.10g,%.10g left offset 0.8,0.6 rotate by 12 font ',10' "
+                    "tc '#222222' noenhanced front",
+                    t->cost[i], fmax(t->error[i], LEAST_SHOWN));
+        picture_text(to, what, text, options);
+        xfree(label);
+        xfree(text);
+        xfree(what);
+        xfree(options);
+    }
+    if (t->study.n > MOST_NUMBERED)
+        return;
+    for (int i = 0; i < t->study.n; i++)
+        if (shown(t, i) && !t->front[i])
+            fprintf(
+                to,
+                "set label %d '%d' at %.10g,%.10g left offset 0.6,0.3 font ',8' tc '#888888'\n",
+                1000 + i, t->study.variant[i]->number, t->cost[i],
+                fmax(t->error[i], LEAST_SHOWN));
+}
+
+/* 1, 2, 5, 10, ...: decades alone would leave a short axis without a number. */
+static void send_tics(FILE *to, char axis, double low, double high)
+{
+    static const double step[] = {1.0, 2.0, 5.0};
+    const char *between = "";
+    fprintf(to, "set %ctics (", axis);
+    for (int decade = (int)floor(log10(low)); decade <= (int)ceil(log10(high)); decade++)
+        for (int k = 0; k < 3; k++) {
+            fprintf(to, "%s%.10g", between, step[k] * pow(10.0, decade));
+            between = ",";
+        }
+    fprintf(to, ")\n");
+}
+
+/* Ranges with room for the labels; returns false where there is nothing to draw. */
+static bool send_ranges(FILE *to, const struct trade *t)
+{
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0.0, 0.0};
+    for (int i = 0; i < t->study.n; i++)
+        if (shown(t, i)) {
+            const double at[2] = {t->cost[i], fmax(t->error[i], LEAST_SHOWN)};
+            for (int a = 0; a < 2; a++) {
+                low[a] = fmin(low[a], at[a]);
+                high[a] = fmax(high[a], at[a]);
+            }
+            low[0] = fmin(low[0], t->low[i]);
+            high[0] = fmax(high[0], t->high[i]);
+        }
+    if (!(high[0] > 0.0))
+        return false;
+    for (int a = 0; a < 2; a++) {
+        const double span = fmax(high[a] / low[a], 2.0);
+        fprintf(to, "set logscale %c\nset %crange [%.6g:%.6g]\n", "xy"[a], "xy"[a],
+                low[a] / pow(span, 0.06), high[a] * pow(span, a ? 0.12 : 0.3));
+        if (span > 300.0)
+            fprintf(to, "set format %c '10^{%%L}'\n", "xy"[a]);
+        else
+            send_tics(to, "xy"[a], low[a] / span, high[a] * span);
+    }
+    return true;
+}
+
+void trade_draw(const struct trade *t)
+{
+    const struct study *const s = &t->study;
+    const int axis = colour_axis(s);
+    int *const order = xalloc((size_t)s->n + 1, sizeof *order);
+    const int n = front_order(t, order);
+    struct picture p = picture_open_in(s->directory, "trade.png", 1200, 900);
+    FILE *const to = p.gnuplot;
+    char *const title = xprintf("%s: what accuracy costs", s->scene);
+    picture_text(to, "title", title, "font ',16' noenhanced");
+    picture_text(to, "xlabel",
+                 t->by == BY_MEMORY ? "cost: memory / MiB"
+                 : t->by == BY_CORE ? "cost: core time per simulated time (bars: all repeats)"
+                                    : "cost: wall time per simulated time (bars: all repeats)",
+                 "");
+    picture_text(to, "ylabel",
+                 t->against == AGAINST_FINEST ? "error against the finest variant"
+                                              : "error against the reference",
+                 "");
+    fprintf(to, "set key at screen 0.53,0.075 center top horizontal maxcols 4\n"
+                "set bmargin at screen 0.16\n");
+    if (send_ranges(to, t)) {
+        send_points(to, t, axis);
+        send_labels(to, t, order, n);
+        fprintf(to, "plot $front using 1:2 with lines lw 2 lc '#bbbbbb' title 'Pareto front'");
+        if (isfinite(t->within))
+            fprintf(to, ", %.10g with lines lw 1.2 dt 2 lc '#444444' title 'asked error'",
+                    t->within);
+        const int groups = axis < 0 ? 1 : s->axis[axis].n;
+        for (int g = 0; g < groups; g++) {
+            char *const name =
+                axis < 0 ? xstrdup("variants")
+                         : xprintf("%s = %s", s->axis[axis].name, s->axis[axis].value[g]);
+            char *const quoted = picture_quoted(name);
+            fprintf(to, ", $p%d using 1:2:3:4 with xerrorbars pt 7 ps 1.3 lc '%s' title %s", g,
+                    picture_colour[g % PICTURE_COLOURS], quoted);
+            xfree(name);
+            xfree(quoted);
+        }
+        fprintf(to, "\n");
+    } else {
+        fprintf(to,
+                "set label 2 'no variant has an error and a cost' at screen 0.5,0.5 center\n"
+                "plot [0:1] [0:1] NaN notitle\n");
+    }
+    picture_close(&p);
+    xfree(title);
+    xfree(order);
+}

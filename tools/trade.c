@@ -1,0 +1,246 @@
+/* tools/trade.c - error against cost: trade SCENE axis=values ... (./run.sh trade; study.h).
+ *
+ * Runs the scene through the variants, `repeats` times each in rounds, and tells the error of each
+ * with its cost: wall time of the whole process over the simulated time, medians of the repeats.
+ * Writes trade.csv, trade.nc, trade.png and a table; names the cheapest variant within the error
+ * asked for (--within, or else the reference's own tolerance). Exit code 1: --within, and none
+ * qualifies. */
+#include <stdlib.h>
+#include <string.h>
+#include "study/trade.h"
+
+enum { EXIT_NONE = 1, MOST_GRID = 48 };
+
+static void parse_quantities(struct trade *t, const char *text)
+{
+    char *const copy = xstrdup(text), *rest = NULL;
+    for (char *w = strtok_r(copy, ",", &rest); w; w = strtok_r(NULL, ",", &rest)) {
+        if (t->n_quantities == MOST_QUANTITIES)
+            die(EXIT_SCENE, "at most %d quantities", MOST_QUANTITIES);
+        t->quantity[t->n_quantities++] = xstrdup(w);
+    }
+    xfree(copy);
+}
+
+static void parse_against(struct trade *t, const char *text)
+{
+    char *end;
+    t->against_text = text;
+    strtod(text, &end);
+    t->against = strcmp(text, "finest") == 0   ? AGAINST_FINEST
+                 : end != text && *end == '\0' ? AGAINST_VALUE
+                                               : AGAINST_FILE;
+}
+
+static double parse_within(const char *text)
+{
+    char *end;
+    const double x = strtod(text, &end);
+    const bool percent = *end == '%' || strcmp(end, " %") == 0;
+    if (end == text || !(x >= 0.0) || (*end && !percent))
+        die(EXIT_SCENE, "--within takes an error, such as 5%% or 0.05, not %s", text);
+    return percent ? 0.01 * x : x;
+}
+
+static const char *const plan_names[] = {"grid", "one", "front", NULL};
+static const char *const cost_names[] = {"wall", "core", "memory", NULL};
+
+/* Index of the word. */
+static int parse_word(const char *option, const char *text, const char *const *names)
+{
+    for (int i = 0; names[i]; i++)
+        if (strcmp(text, names[i]) == 0)
+            return i;
+    die(EXIT_SCENE, "%s is %s, %s or %s, not %s", option, names[0], names[1], names[2], text);
+}
+
+static void parse(struct trade *t, int argc, char **argv)
+{
+    bool plan = false;
+    t->within = (double)NAN;
+    study_arguments(&t->study, "trade", &argc, argv);
+    for (int i = 1; i < argc; i++) {
+        const char *const name = argv[i], *const value = i + 1 < argc ? argv[i + 1] : "";
+        if (strcmp(name, "--confirm") == 0) {
+            t->confirm = true;
+            continue;
+        }
+        i++;
+        if (strcmp(name, "--within") == 0)
+            t->within = parse_within(value);
+        else if (strcmp(name, "--error") == 0 && *value)
+            t->error_key = value;
+        else if (strcmp(name, "--quantity") == 0 && *value)
+            parse_quantities(t, value);
+        else if (strcmp(name, "--against") == 0 && *value)
+            parse_against(t, value);
+        else if (strcmp(name, "--cost") == 0)
+            t->by = (enum cost_by)parse_word(name, value, cost_names);
+        else if (strcmp(name, "--plan") == 0) {
+            t->plan = (enum plan)parse_word(name, value, plan_names);
+            plan = true;
+        } else
+            die(EXIT_SCENE, "no such option of trade, or one without its value: %s", name);
+    }
+    if (t->n_quantities > 0 && t->against == AGAINST_REFERENCE)
+        t->against = AGAINST_FINEST;
+    if (t->n_quantities == 0 && t->against != AGAINST_REFERENCE)
+        die(EXIT_SCENE, "--against needs --quantity: a line of summary.txt");
+    if (t->study.n_axes == 0)
+        die(EXIT_SCENE,
+            "trade needs an axis: drag=ergun,di_felice or domain.cells='8 8 16,16 16 32'");
+    double total = 1.0;
+    for (int a = 0; a < t->study.n_axes; a++)
+        total *= t->study.axis[a].n;
+    if (!plan)
+        t->plan = total > MOST_GRID ? PLAN_FRONT : PLAN_GRID;
+}
+
+static const char *cost_unit(const struct trade *t)
+{
+    return t->by == BY_MEMORY ? "MiB"
+           : t->by == BY_CORE ? "core s per simulated s"
+                              : "s per simulated s";
+}
+
+/* Cost of the quickest and the slowest run around the median. */
+static void print_spread(const struct trade *t, int i)
+{
+    if (t->study.variant[i]->n_runs > 1)
+        printf(" %+5.0f%+4.0f %%", 100.0 * (t->low[i] / t->cost[i] - 1.0),
+               100.0 * (t->high[i] / t->cost[i] - 1.0));
+    else
+        printf(" %11s", "one run");
+}
+
+static void print_table(const struct trade *t)
+{
+    const struct study *const s = &t->study;
+    size_t width = 8;
+    for (int i = 0; i < s->n; i++)
+        width = width > strlen(s->variant[i]->label) ? width : strlen(s->variant[i]->label);
+    printf("%4s %-*s %11s %11s %11s %11s %8s\n%4s %-*s %11s %11s %11s %11s %8s\n", "",
+           (int)width, "variant", "error", "cost", "spread", "core", "memory", "", (int)width,
+           "", "1", "s/s", "", "s/s", "MiB");
+    for (int i = 0; i < s->n; i++) {
+        const struct variant *const v = s->variant[i];
+        printf("%3d%c %-*s", v->number, t->front[i] ? '*' : ' ', (int)width, v->label);
+        if (v->ending != RUN_GOOD) {
+            printf(" %s: %.120s\n", ending_name[v->ending], v->reason);
+            continue;
+        }
+        printf(" %11.4g %11.4g", t->error[i], t->cost[i]);
+        print_spread(t, i);
+        printf(" %11.4g %8.3g\n", t->core[i], t->memory[i] / 1048576.0);
+    }
+    printf("* on the Pareto front; cost: %s, median of %d runs in rounds; spread: the least, "
+           "the most\n",
+           cost_unit(t), s->repeats);
+    for (int q = 0; q < t->n_quantities && t->against == AGAINST_FINEST; q++) {
+        printf("compared with %s = %.8g", t->quantity[q], t->truth[q]);
+        if (isfinite(t->order[q]))
+            printf(" (Richardson's estimate, order %.2f, %.2g %% from the finest)", t->order[q],
+                   100.0 * fabs(t->doubt[q] / t->truth[q]));
+        printf("\n");
+    }
+}
+
+/* The error that a set-up must have: --within, or the reference's tolerance; NaN if neither. */
+static double asked(const struct trade *t)
+{
+    if (isfinite(t->within) || t->n_quantities > 0 || t->error_key)
+        return t->within;
+    for (int i = 0; i < t->study.n; i++) {
+        const double tolerance =
+            result_number(&t->study.variant[i]->result, "reference_tolerance");
+        if (isfinite(tolerance))
+            return tolerance;
+    }
+    return (double)NAN;
+}
+
+/* Runs it alone once more and tells how it compares. */
+static void confirm(struct trade *t)
+{
+    struct variant *const v = t->study.variant[t->best];
+    const double cost = t->cost[t->best];
+    struct variant again = *v;
+    again.n_runs = 0;
+    again.reason = xstrdup("");
+    again.result = (struct result){0};
+    again.id = hash_text(v->id, "confirm");
+    t->study.fresh = true;
+    study_run(&t->study, &again);
+    const struct cost *const c = &again.run[0];
+    const double wall = again.n_runs == 0 ? (double)NAN
+                        : t->by == BY_MEMORY
+                            ? c->memory / 1048576.0
+                            : (t->by == BY_CORE ? c->core : c->wall) / again.simulated;
+    const char *const key = t->n_quantities > 0 ? t->quantity[0]
+                            : t->error_key      ? t->error_key
+                                                : "reference_error";
+    const bool same = result_number(&again.result, key) == result_number(&v->result, key);
+    const char *const which = same ? "its error the same to the last digit" : "ANOTHER error";
+    printf("run again alone: %s, its cost %.4g %s (%+.0f %%)\n", which, wall, cost_unit(t),
+           100.0 * (wall / cost - 1.0));
+    xfree(again.reason);
+    result_free(&again.result);
+}
+
+/* Returns the exit code. */
+static int recommend(struct trade *t)
+{
+    const double limit = asked(t);
+    int best = -1, least = -1;
+    for (int i = 0; i < t->study.n; i++) {
+        if (!t->front[i])
+            continue;
+        if (t->error[i] <= limit && (best < 0 || t->cost[i] < t->cost[best]))
+            best = i;
+        if (least < 0 || t->error[i] < t->error[least])
+            least = i;
+    }
+    t->best = best;
+    if (least < 0) {
+        printf("no variant has an error and a cost\n");
+        return EXIT_NONE;
+    }
+    if (isnan(limit)) {
+        t->best = least;
+        printf("the least error is %.3g, at %.4g %s (--within names the cheapest "
+               "within an error): %s\n  %s\n",
+               t->error[least], t->cost[least], cost_unit(t), t->study.variant[least]->label,
+               t->study.variant[least]->command);
+        return EXIT_GOOD;
+    }
+    if (best < 0) {
+        printf("no variant is within %.4g %%; the nearest, %.4g %% at %.4g %s, "
+               "is %s\n"
+               "  %s\n",
+               100.0 * limit, 100.0 * t->error[least], t->cost[least], cost_unit(t),
+               t->study.variant[least]->label, t->study.variant[least]->command);
+        return isfinite(t->within) ? EXIT_NONE : EXIT_GOOD;
+    }
+    printf("the cheapest within %.4g %% is %s: error %.3g %%, %.4g %s\n  %s\n", 100.0 * limit,
+           t->study.variant[best]->label, 100.0 * t->error[best], t->cost[best], cost_unit(t),
+           t->study.variant[best]->command);
+    return EXIT_GOOD;
+}
+
+int main(int argc, char **argv)
+{
+    struct trade t = {.best = -1};
+    parse(&t, argc, argv);
+    study_open(&t.study);
+    trade_run_plan(&t);
+    trade_costs(&t);
+    trade_errors(&t);
+    print_table(&t);
+    const int code = recommend(&t);
+    trade_write(&t);
+    trade_draw(&t);
+    if (t.confirm && t.best >= 0)
+        confirm(&t);
+    trade_free(&t);
+    return code;
+}
