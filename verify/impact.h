@@ -12,7 +12,8 @@ struct impact {
     double vt, vn, spin;  /* m/s along x, towards the floor; rad/s about y */
     const char *material; /* rows of its section */
     double dt;            /* s */
-    bool pair; /* two such spheres head on, each with this vn and spin; else the floor */
+    bool pair;     /* two such spheres head on, each with this vn and spin; else the floor */
+    bool opposite; /* the other spins the other way */
 };
 
 struct rebound {
@@ -27,7 +28,8 @@ static inline struct rebound impact_run(const struct impact *p)
         "[grains b]\ndiameter = %.17g m\ndensity = %.17g kg/m3\nfill = point\nmaterial = m\n"
         "position = %.17g %.17g %.17g m\nvelocity = %.17g 0 %.17g m/s\nspin = 0 %.17g 0 "
         "rad/s\n",
-        2.0 * p->r, p->density, half, half, half - p->r - gap, -p->vt, p->vn, p->spin);
+        2.0 * p->r, p->density, half, half, half - p->r - gap, -p->vt, p->vn,
+        p->opposite ? -p->spin : p->spin);
     char *const text = xprintf(
         "[grains a]\ndiameter = %.17g m\ndensity = %.17g kg/m3\nfill = point\nmaterial = m\n"
         "position = %.17g %.17g %.17g m\nvelocity = %.17g 0 %.17g m/s\nspin = 0 %.17g 0 rad/s\n"

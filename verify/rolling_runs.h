@@ -5,23 +5,38 @@
 
 #include "check.h"
 #include <omp.h>
+#include "csv.h"
 #include "harness.h"
 
-/* A sphere of 10 mm, sunk by its weight; `material`: rows of its section, `more`: sections. */
-static inline struct sim *sphere_on_plane(double v, double dt, const char *material,
-                                          const char *more)
+struct ball {
+    double r, density, k; /* m, kg/m3, N/m: normal stiffness against the plane */
+};
+
+/* A sphere sunk by its weight, rolling; `material`: rows of its section, friction among them; `more`:
+ * sections. */
+static inline struct sim *sphere_with(struct ball b, double v, double dt, const char *material,
+                                      const char *more)
 {
-    const double r = 5e-3, k = 1e4, m = 1056.0 * 4.0 / 3.0 * PI * r * r * r;
+    const double r = b.r, m = b.density * 4.0 / 3.0 * PI * r * r * r;
     char *const text = xprintf(
-        "[grains a]\ndiameter = 10 mm\ndensity = 1056 kg/m3\nfill = point\nmaterial = m\n"
+        "[grains a]\ndiameter = %.17g m\ndensity = %g kg/m3\nfill = point\nmaterial = m\n"
         "position = 0.5 0.05 %.17g m\nvelocity = %.17g 0 0 m/s\nspin = 0 %.17g 0 rad/s\n"
         "[domain]\nsize = 1 0.1 0.05 m\nx = periodic\ny = periodic\n[run]\nend = 100 s\n"
-        "substeps = 1\ndt = %.17g s\n[material m]\nstiffness = 2e4 N/m\nrestitution = 0.5\n"
-        "friction = 0.9\n%s%s",
-        r - m * 9.81 / k, v, v / r, dt, material, more);
+        "substeps = 1\ndt = %.17g s\n[material m]\nstiffness = %.17g N/m\nrestitution = 0.5\n"
+        "%s%s",
+        2.0 * r, b.density, r - m * 9.81 / b.k, v, v / r, dt, 2.0 * b.k, material, more);
     omp_set_num_threads(1);
     struct sim *const s = sim_from(text);
     xfree(text);
+    return s;
+}
+
+static inline struct sim *sphere_on_plane(double v, double dt, const char *material,
+                                          const char *more)
+{
+    char *const rows = xprintf("friction = 0.9\n%s", material);
+    struct sim *const s = sphere_with((struct ball){5e-3, 1056.0, 1e4}, v, dt, rows, more);
+    xfree(rows);
     return s;
 }
 
@@ -33,7 +48,7 @@ static inline void tilt(struct sim *s, double angle)
 static inline double gain(struct sim *s, double time)
 {
     const double before = s->grains.vel[0].x;
-    const long steps = (long)(time / s->run.dt);
+    const long steps = lrint(time / s->run.dt);
     for (long k = 0; k < steps; k++)
         step(s);
     return s->grains.vel[0].x - before;
@@ -67,6 +82,35 @@ static inline void check_incline(double slope, const char *material, const char 
     sim_free(s);
 }
 
+/* The table of slopes: rest, rolling and slipping, with the torque limit mu_r R F_n whose rows of the
+ * scene `material` makes from mu_r. Acceleration and spin rate over 0.02 s, after the springs have filled;
+ * what rests must not have left. */
+static inline void check_slopes(char *(*material)(double mu_r), const char *more)
+{
+    const struct csv *const t = csv_read("incline.csv");
+    for (int i = 0; i < t->n; i++) {
+        const double mu = csv_value(t, i, "mu"), mu_r = csv_value(t, i, "mu_r");
+        const double angle = csv_value(t, i, "alpha_deg"), want = csv_value(t, i, "a_m_s2");
+        const char *const regime = csv_text(t, i, "regime");
+        char *const rows = material(mu_r), *const all =
+                                               xprintf("friction = %.17g\n%s", mu, rows);
+        struct sim *const s =
+            sphere_with((struct ball){5e-3, 1056.0, 1e4}, 0.0, 1e-5, all, more);
+        tilt(s, angle * PI / 180.0);
+        gain(s, 0.06);
+        const double spin = s->grains.spin[0].y, time = 0.02, a = gain(s, time) / time;
+        const double turn = 5e-3 * (s->grains.spin[0].y - spin) / time;
+        const double want_turn = csv_value(t, i, "ang_acc_times_R");
+        check(fabs(a - want) < 5e-3 * fmax(want, 0.1) &&
+                  fabs(turn - want_turn) < 5e-3 * fmax(want_turn, 0.1),
+              "%g deg, mu = %g, mu_r = %g, %s: %.5g m/s2, want %.5g; spin %.5g, want %.5g",
+              angle, mu, mu_r, regime, a, want, turn, want_turn);
+        sim_free(s);
+        xfree(rows);
+        xfree(all);
+    }
+}
+
 /* Rolls on a level plane: how far, and with what speed and spin when it has stopped. */
 struct stop {
     double distance, speed, drift; /* m; m/s, largest over the last 0.1 s; m over it */
@@ -78,7 +122,7 @@ static inline struct stop roll_out(double v, double time, const char *material,
     struct sim *const s = sphere_on_plane(v, 1e-5, material, more);
     struct stop out = {0};
     double travelled = 0.0;
-    const long steps = (long)(time / s->run.dt);
+    const long steps = lrint(time / s->run.dt);
     for (long k = 0; k < steps; k++) {
         step(s);
         travelled += s->grains.vel[0].x * s->run.dt;

@@ -1,46 +1,52 @@
 /* verify/test_rolling_epsd.c - the elastic-plastic spring against rolling in runs: a sphere rolls from
- * the slope mu_r on, comes to rest after v^2/(2 a) and stays, swings with the period and decay of a
- * damped spring (reference/06: I_r w^2 = k_r). */
+ * the slope mu_r on, at every slope rests, rolls or slips as a rigid body does, comes to rest after
+ * v^2/(2 a) and stays, swings with the period and decay of a damped spring. */
 /* slots: contact/linear contact/rolling/epsd */
 #include "rolling_runs.h"
 
-/* Free swing about the contact: (I + m R^2) theta'' + C theta' + k_r theta = 0. */
-static void check_swing(double eta)
+static char *material_of(double mu_r)
 {
-    const double mu = 0.02, r = 5e-3, m = 1056.0 * 4.0 / 3.0 * PI * r * r * r, kn = 1e4;
-    const double kr = 2.25 * kn * mu * mu * r * r, omega = sqrt(kr / (1.4 * m * r * r));
-    const double limit = mu * r * m * 9.81 / kr;
-    char *const more = xprintf("[rolling]\ndamping = %g\n", eta);
-    struct sim *const s = sphere_on_plane(
-        0.3 * limit * omega * r, 2e-6, "rolling_friction = 0.02\nstiffness_ratio = 1\n", more);
-    double before = s->grains.vel[0].x, first = 0.0, last = 0.0;
-    double x = 0.0, peak[2] = {0.0, 0.0};
-    int crossings = 0;
-    for (int k = 1; k < 400000 && crossings < 4; k++) {
+    return xprintf("rolling_friction = %.17g\n", mu_r);
+}
+
+/* Free swing about the contact, one row of the table: k_r through the factor q, the springs of the
+ * contact 400 times stiffer. The first maximum and the third after it, of strong damping the next. */
+static void check_swing(const struct csv *t, int row)
+{
+    const double eta = csv_value(t, row, "eta_r"), kr = csv_value(t, row, "k_r_Nm_per_rad");
+    const double omega = csv_value(t, row, "omega0_rad_s"),
+                 period = csv_value(t, row, "period_s");
+    const double r = 0.01, kn = 400.0 * kr / (r * r), mu = 0.1, dt = period / 6000.0;
+    const int n = eta > 0.5 ? 1 : 3;
+    char *const more = xprintf("[rolling]\ndamping = %g\nstiffness_factor = %.17g\n", eta,
+                               kr / (kn * mu * mu * r * r));
+    char *const material =
+        xprintf("friction = 0.9\nrolling_friction = %g\nstiffness_ratio = 1\n", mu);
+    struct sim *const s =
+        sphere_with((struct ball){r, 2500.0, kn},
+                    0.3 * csv_value(t, row, "theta_m_rad") * omega * r, dt, material, more);
+    double before = s->grains.vel[0].x, first = 0.0, last = 0.0, x = 0.0, peak[2] = {0.0, 0.0};
+    int maxima = 0;
+    for (int k = 1; k < 400000 && maxima <= n; k++) {
         step(s);
-        const double v = s->grains.vel[0].x;
-        x += v * 2e-6;
-        if (before > 0.0 && v <= 0.0) { /* a maximum */
-            const double at = (k - v / (v - before)) * 2e-6;
-            if (crossings == 0) {
-                first = at;
-                peak[0] = x;
-            }
-            if (crossings == 3) {
-                last = at;
-                peak[1] = x;
-            }
-            crossings++;
+        const double v = s->grains.vel[0].x, end = x + v * dt;
+        if (before > 0.0 && v <= 0.0) {
+            const double at = (k - v / (v - before)) * dt;
+            *(maxima == 0 ? &first : &last) = at;
+            peak[maxima > 0] = x;
+            maxima++;
         }
+        x = end;
         before = v;
     }
-    char *const text = xprintf("swing with eta = %g: period, s", eta);
-    check_rel((last - first) / 3.0, 2.0 * PI / (omega * sqrt(1.0 - eta * eta)), 5e-3, text);
+    char *const text = xprintf("swing, k_r = %g N m, eta = %g: period, s", kr, eta);
+    check_rel((last - first) / n, period, 5e-3, text);
+    check_abs(pow(peak[1] / peak[0], 1.0 / n), csv_value(t, row, "ratio_successive_maxima"),
+              5e-3, "  ratio of successive maxima");
     xfree(text);
-    check_abs(pow(peak[1] / peak[0], 1.0 / 3.0), exp(-2.0 * PI * eta / sqrt(1.0 - eta * eta)),
-              5e-3, "ratio of successive maxima");
     sim_free(s);
     xfree(more);
+    xfree(material);
 }
 
 int main(void)
@@ -52,11 +58,13 @@ int main(void)
         check_incline(slope, material, "");
         xfree(material);
     }
+    check_slopes(material_of, "[rolling]\nplastic_damping = 0\n");
     const struct stop s = roll_out(0.2, 0.4, "rolling_friction = 0.3\n", "");
     check_rel(s.distance, 0.2 * 0.2 / (2.0 * 2.10214286), 1e-2, "rolls to rest: distance, m");
     check(s.speed < 1e-9 && fabs(s.drift) < 1e-10, "and stays: speed %.2g m/s, drift %.2g m",
           s.speed, s.drift);
-    check_swing(0.0);
-    check_swing(0.05);
+    const struct csv *const t = csv_read("epsd_oscillation.csv");
+    for (int i = 0; i < t->n; i++)
+        check_swing(t, i);
     return check_end();
 }

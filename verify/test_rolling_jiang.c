@@ -35,6 +35,7 @@ int main(void)
         check_incline(slope, material, "");
         xfree(material);
     }
+    check_slopes(material_of, "");
     char *const material = material_of(0.3);
     const struct stop s = roll_out(0.2, 0.4, material, "");
     check_rel(s.distance, 0.2 * 0.2 / (2.0 * 2.10214286), 1e-2, "rolls to rest: distance, m");
