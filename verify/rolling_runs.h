@@ -97,7 +97,7 @@ static inline void check_slopes(char *(*material)(double mu_r), const char *more
         struct sim *const s =
             sphere_with((struct ball){5e-3, 1056.0, 1e4}, 0.0, 1e-5, all, more);
         tilt(s, angle * PI / 180.0);
-        gain(s, 0.06);
+        gain(s, want > 0.0 ? 0.06 : 0.3); /* what is held swings first */
         const double spin = s->grains.spin[0].y, time = 0.02, a = gain(s, time) / time;
         const double turn = 5e-3 * (s->grains.spin[0].y - spin) / time;
         const double want_turn = csv_value(t, i, "ang_acc_times_R");
