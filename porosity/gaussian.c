@@ -3,9 +3,9 @@
  *
  *   eps = 1 - exp(w^2/2 L) (sum of trilinear shares V_p)/V,   L the Laplacian of the grid, no flux
  *                                                             through walls
- * The diffusion is the one that the transforms of the pressure solve make diagonal, exactly, not by
- * time steps (solver/diffuse.c); it keeps the volume next to walls. Whatever the size of the cells,
- * the fluid fraction is as smooth as the width: 35 ns or so per grain and a few per cell and field.
+ * The diffusion is done in the basis of the transforms of the pressure solve, exactly, not by time steps
+ * (solver/diffuse.c); it keeps the volume next to walls. Whatever the size of the cells, the fluid
+ * fraction is as smooth as the width: 35 ns or so per grain and 4 per cell and field, at any width.
  * One width serves all grains. [SunXiao15] recommend a bandwidth of 6 diameters, which is a width of
  * 3 sqrt(2) = 4.2 diameters in a bed; 2 already remove the noise. */
 #include "porosity.h"

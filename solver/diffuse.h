@@ -3,13 +3,13 @@
  *
  * The operator is symmetric (its own transpose in the sum over cells), keeps the sum of a field to
  * round-off, next to walls too, keeps what is constant or, away from walls, linear in space, and makes
- * no negative value of positive ones. */
+ * no negative value of positive ones beyond round-off. */
 #ifndef DIFFUSE_H
 #define DIFFUSE_H
 
 #include "grid.h"
 
-struct diffuse; /* the weights per direction */
+struct diffuse; /* the transforms per direction */
 
 /* width: standard deviation, m, > 0 */
 struct diffuse *diffuse_create(const struct grid *g, const struct domain *d, double width);
