@@ -3,24 +3,27 @@
  * At random: grains are added one by one, the largest first, where they overlap nothing (random
  * sequential addition, which jams at a solid fraction of 0.384 for equal spheres [Zhang13]); a
  * grain that finds no room in a few tries is put down all the same, and then all are pushed apart
- * (fill_relax.c), which reaches about 0.6. `settle` is a random filling of the lower part of the
- * region at SETTLE_LOOSE, which then falls (settle.c). */
+ * (fill_relax.c), which reaches about 0.6. `grow` lets them grow in place, to dense packings
+ * (fill_grow.c). `settle` is a random filling of the lower part of the region at SETTLE_LOOSE, which
+ * then falls (settle.c). All of these keep clear of walls. */
 #include "fill.h"
 
-#include <gsl/gsl_rng.h>
 #include <stdlib.h>
+#include "fill_grow.h"
 #include "fill_patterns.h"
+#include "fill_room.h"
 #include "sim.h"
 
 #define PI           3.14159265358979323846
 #define LATTICE_MOST 0.5236 /* simple cubic */
 #define RANDOM_MOST  0.64
-#define SIZES_MOST   0.80 /* of differing sizes, the small in the gaps of the large */
+#define GROW_MOST    0.7405 /* the densest lattice */
+#define SIZES_MOST   0.85   /* of differing sizes, the small in the gaps of the large */
 #define SETTLE_LOOSE 0.28
 #define SWELL        0.01
 
-enum { LATTICE, RANDOM, SETTLE, UNIT_CELL, POINT, FROM_FILE };
-enum { TRIES = 10, COUNT_MOST = 100000000 };
+enum { LATTICE, RANDOM, SETTLE, GROW, UNIT_CELL, POINT, FROM_FILE };
+enum { TRIES = 10, COUNT_MOST = 100000000, ROOM_POINTS = 1 << 18, HEIGHT_POINTS = 1 << 13 };
 
 static struct fill_region region_read(struct sim *s, struct scene *scene, const char *name,
                                       double widest)
@@ -78,8 +81,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
     else if (key[0] == 'm')
         solid = scene_real(t->scene, "grains", t->name, "mass") / density;
     else
-        solid = (1.0 - scene_real(t->scene, "grains", t->name, "porosity")) *
-                region_volume(&t->region);
+        solid = (1.0 - scene_real(t->scene, "grains", t->name, "porosity")) * t->room;
     const double expected = fmin(most, solid / (PI / 6.0 * t->sizes->mean_cube));
     if (expected > 0.999 * COUNT_MOST) {
         scene_error(t->scene, "grains", t->name, key, "are about %.3g grains; at most %d",
@@ -111,7 +113,7 @@ static double solid_fraction(const struct fill_task *t)
     double sum = 0.0;
     for (int i = 0; i < t->n; i++)
         sum += sphere(t->diameter[i]);
-    return sum / region_volume(&t->region);
+    return t->room > 0.0 ? sum / t->room : (double)INFINITY;
 }
 
 /* True, or an error on the list, if the grains are at most `most` of the region. */
@@ -121,8 +123,8 @@ static bool fits(const struct fill_task *t, const char *key, double most, const 
     if (solid <= most)
         return true;
     scene_error(t->scene, "grains", t->name, key,
-                "the grains fill %.3g %% of their region; at most %.3g %% %s", 100.0 * solid,
-                100.0 * most, why);
+                "the grains fill %.3g %% of their region%s; at most %.3g %% %s", 100.0 * solid,
+                t->walls ? " between the walls" : "", 100.0 * most, why);
     return false;
 }
 
@@ -140,15 +142,6 @@ static int largest_first(const void *a, const void *b)
     return x->order - y->order;
 }
 
-static vec3 somewhere(const struct fill_region *r, double radius, gsl_rng *rng)
-{
-    double lo[3], hi[3], x[3];
-    region_bounds(r, radius, lo, hi);
-    for (int a = 0; a < 3; a++)
-        x[a] = lo[a] + (hi[a] - lo[a]) * gsl_rng_uniform(rng);
-    return v3(x[0], x[1], x[2]);
-}
-
 /* Puts down the grains, largest first; returns the largest overlap that was left. */
 static double put_down(struct fill_grid *b, const struct drawn *drawn, int n,
                        const struct fill_task *task, gsl_rng *rng)
@@ -160,7 +153,13 @@ static double put_down(struct fill_grid *b, const struct drawn *drawn, int n,
         vec3 x = v3(0.0, 0.0, 0.0);
         double overlap = 1.0;
         for (int k = 0; k < TRIES && overlap > 0.0; k++) {
-            x = somewhere(&t->region, 0.5 * d, rng);
+            if (!room_somewhere(t->walls, &t->region, 0.5 * d, rng, &x)) {
+                scene_error(t->scene, "grains", t->name, NULL,
+                            "between the walls there is no place in the region for a grain of "
+                            "%g m",
+                            d);
+                return 0.0;
+            }
             overlap = fill_grid_overlap(b, x, d, 0.0);
         }
         worst = fmax(worst, overlap);
@@ -170,14 +169,54 @@ static double put_down(struct fill_grid *b, const struct drawn *drawn, int n,
 }
 
 /* Pushes the grains apart, with room to spare first, or with less of it. */
-static double push_apart(struct fill_grid *b, int first, const struct fill_region *regions)
+static double push_apart(struct fill_grid *b, int first, const struct fill_region *regions,
+                         const struct sim *walls)
 {
     struct relaxed r = {.overlap = 1.0};
     for (double swell = SWELL; swell > 5e-4 && r.overlap > 0.0; swell *= 0.2)
-        r = fill_relax(
-            b, first, regions,
-            &(struct relax_goal){.swell = swell, .sweeps = swell < SWELL ? 3000 : 600});
+        r = fill_relax(b, first, regions,
+                       &(struct relax_goal){.scale = 1.0,
+                                            .swell = swell,
+                                            .sweeps = swell < SWELL ? 3000 : 600,
+                                            .walls = walls});
     return r.overlap;
+}
+
+/* The grains from `first` on, which overlap, are let grow; or an error that says how far they did. */
+static void grow(struct sim *s, struct fill_grid *b, int first,
+                 const struct fill_region *regions, const struct fill_task *last,
+                 const struct grow_goal *goal)
+{
+    const struct grown g = fill_grow(b, first, regions, goal);
+    if (g.scale < 1.0) {
+        const double solid = solid_fraction(last);
+        scene_error(
+            last->scene, "grains", last->name, amount_key(last->scene, last->name),
+            "the growing grains jam at %.4f of their diameter, where the porosity of "
+            "their region is %.4f (asked: %.4f); ask for that, or let more overlap than "
+            "%g (grains %s.overlap)",
+            g.scale, 1.0 - solid * g.scale * g.scale * g.scale, 1.0 - solid, goal->overlap,
+            last->name);
+    }
+    summary_number(&s->summary, "grown_overlap", g.overlap, "1");
+    summary_number(&s->summary, "grown_sweeps", g.sweeps, "1");
+}
+
+/* Pushes the grains from `first` on apart; or an error. */
+static void part(struct fill_grid *b, int first, const struct fill_region *regions,
+                 const struct fill_task *last, const struct sim *walls)
+{
+    const double overlap = push_apart(b, first, regions, walls);
+    if (overlap > 0.0)
+        scene_error(last->scene, "grains", last->name, amount_key(last->scene, last->name),
+                    "the grains find no room without overlap (%.2g of a diameter is left); ask "
+                    "for a higher porosity or a larger region, or fill = grow",
+                    overlap);
+}
+
+static bool at_random(int how)
+{
+    return how == RANDOM || how == SETTLE || how == GROW;
 }
 
 /* All species that are placed at random, together. */
@@ -186,11 +225,20 @@ static void fill_random(struct sim *s, struct fill_grid *b, struct fill_task *ta
 {
     struct fill_region *const regions = xalloc((size_t)n_tasks + 1, sizeof *regions);
     struct drawn *drawn = NULL;
+    struct grow_goal goal = {.overlap = 1.0};
     int n = 0, first = b->n, last = -1;
+    bool grows = false;
     for (int k = 0; k < n_tasks; k++) {
         regions[k] = task[k].region;
-        if (how[k] != RANDOM && how[k] != SETTLE)
+        if (!at_random(how[k]))
             continue;
+        goal.walls = goal.walls ? goal.walls : task[k].walls;
+        goal.solid += solid_fraction(&task[k]);
+        if (how[k] == GROW) {
+            grows = true;
+            goal.overlap = fmin(goal.overlap,
+                                scene_real(task[k].scene, "grains", task[k].name, "overlap"));
+        }
         drawn = xrealloc(drawn, (size_t)n, (size_t)(n + task[k].n) + 1, sizeof *drawn);
         for (int i = 0; i < task[k].n; i++, n++)
             drawn[n] = (struct drawn){task[k].diameter[i], k, n};
@@ -200,16 +248,11 @@ static void fill_random(struct sim *s, struct fill_grid *b, struct fill_task *ta
         gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
         gsl_rng_set(rng, s->run.seed);
         qsort(drawn, (size_t)n, sizeof *drawn, largest_first);
-        double overlap = put_down(b, drawn, n, task, rng);
-        if (overlap > 0.0)
-            overlap = push_apart(b, first, regions);
-        if (overlap > 0.0)
-            scene_error(
-                task[last].scene, "grains", task[last].name,
-                amount_key(task[last].scene, task[last].name),
-                "the grains find no room without overlap (%.2g of a diameter is left); ask "
-                "for a higher porosity or a larger region",
-                overlap);
+        const double overlap = put_down(b, drawn, n, task, rng);
+        if (overlap > 0.0 && grows)
+            grow(s, b, first, regions, &task[last], &goal);
+        else if (overlap > 0.0)
+            part(b, first, regions, &task[last], goal.walls);
         gsl_rng_free(rng);
     }
     xfree(drawn);
@@ -220,9 +263,20 @@ static void fill_random(struct sim *s, struct fill_grid *b, struct fill_task *ta
 static void lower_part(struct fill_task *t)
 {
     struct fill_region *const r = &t->region;
-    const double part = fmin(1.0, solid_fraction(t) / SETTLE_LOOSE);
+    const double want = solid_fraction(t) * t->room / SETTLE_LOOSE;
     const double height = r->to[2] - r->from[2], d = t->sizes->largest;
-    const double need = fmin(height, fmax(part * height, r->open[2] ? 0.0 : 2.0 * d));
+    const double least = fmin(height, r->open[2] ? 0.0 : 2.0 * d);
+    double lo = 0.0, need = fmin(height, want / region_volume(r) * height);
+    struct fill_region lower = *r;
+    for (double hi = height; t->walls && hi - lo > 0.01 * d;) { /* where they leave enough */
+        need = 0.5 * (lo + hi);
+        lower.to[2] = r->from[2] + need;
+        if (room_volume(t->walls, &lower, HEIGHT_POINTS) < want)
+            lo = need;
+        else
+            hi = need;
+    }
+    need = fmax(need, least);
     if (need < height)
         r->open[2] = false;
     r->to[2] = r->from[2] + need;
@@ -235,11 +289,17 @@ static void prepare(struct sim *s, struct fill_task *t, int how)
     const bool one = t->sizes->kind == SIZES_ONE;
     if (how == UNIT_CELL || how == FROM_FILE)
         return;
+    t->walls = walls_named(s) && !s->grains.species[t->species].frozen ? s : NULL;
+    t->room = room_volume(t->walls, &t->region, ROOM_POINTS);
     draw_sizes(s, t, key);
     if (how == LATTICE)
         fits(t, key, LATTICE_MOST, "can lie on a lattice");
     else if (how != POINT &&
-             fits(t, key, one ? RANDOM_MOST : SIZES_MOST, "find room at random") &&
+             fits(t, key,
+                  !one          ? SIZES_MOST
+                  : how == GROW ? GROW_MOST
+                                : RANDOM_MOST,
+                  how == GROW ? "find room" : "find room at random (fill = grow: more)") &&
              how == SETTLE)
         lower_part(t);
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 #include "bed_file.h"
+#include "sim.h"
 
 static vec3 lattice_point(const double lo[3], const int n[3], double spacing, int i)
 {
@@ -27,15 +28,18 @@ void fill_lattice(struct fill_grid *b, const struct fill_task *t)
             n[a] = (int)floor((hi[a] - lo[a]) / spacing * (1.0 + 1e-12));
         n[a] = n[a] < 1 ? 1 : n[a];
     }
-    if ((double)n[0] * n[1] * n[2] < t->n) {
-        scene_error(t->scene, "grains", t->name, "count",
-                    "a lattice of %g m has room for %.0f grains, %d are asked for", spacing,
-                    (double)n[0] * n[1] * n[2], t->n);
-        return;
+    const double points = (double)n[0] * n[1] * n[2];
+    int put = 0;
+    for (int i = 0; put < t->n && i < points; i++) {
+        const vec3 x = lattice_point(lo, n, spacing, i);
+        const double r = 0.5 * t->diameter[put];
+        if (!t->walls || walls_gap(t->walls, x, r, 0.0, NULL) >= -1e-9 * r)
+            fill_grid_add(b, (struct placed){x, t->diameter[put++], t->species});
     }
-    for (int i = 0; i < t->n; i++)
-        fill_grid_add(
-            b, (struct placed){lattice_point(lo, n, spacing, i), t->diameter[i], t->species});
+    if (put < t->n)
+        scene_error(t->scene, "grains", t->name, "count",
+                    "a lattice of %g m has room for %d grains%s, %d are asked for", spacing,
+                    put, t->walls ? " clear of the walls" : "", t->n);
 }
 
 /* Positions in the unit cell, in parts of its edge; the edge at which neighbours touch. */

@@ -12,8 +12,10 @@ struct fill_task {
     int species;      /* its index */
     const struct sizes *sizes;
     struct fill_region region;
-    int n;            /* grains asked for (unit_cell, file: what there is) */
-    double *diameter; /* m, n of them, in the order drawn */
+    const struct sim *walls; /* of which its grains keep clear; NULL: none */
+    double room;             /* m3 of the region that walls leave */
+    int n;                   /* grains asked for (unit_cell, file: what there is) */
+    double *diameter;        /* m, n of them, in the order drawn */
     unsigned long seed;
 };
 

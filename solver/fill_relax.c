@@ -7,13 +7,15 @@
 #include "fill_relax.h"
 
 #include <string.h>
+#include "sim.h"
 
 #define SKIN      0.40 /* of the least diameter, room to move before neighbours are sought anew */
 #define STEP_MOST 0.6 /* stable below sqrt 2: unit springs, inertia = their number */
 #define STEP      0.2
 #define MIX       0.1
+#define STRIDE    0.1 /* of its diameter, the farthest that a grain goes in a step */
 
-enum { BLOCK = 1024 };
+enum { BLOCK = 1024, CORNERS = 8 };
 
 /* Neighbours and sums of a block of grains. */
 struct relax_block {
@@ -27,9 +29,11 @@ struct relax_block {
 struct relax {
     struct fill_grid *bed;
     const struct fill_region *region;
+    const struct sim *walls;
     int first, n, blocks;
-    double skin, swell;
-    int *begin; /* per grain, in its block's list */
+    double skin, swell, scale;
+    bool *by_wall; /* near one, since the list was made */
+    int *begin;    /* per grain, in its block's list */
     int *count;
     double *inertia;
     vec3 *vel, *force, *built;
@@ -104,6 +108,9 @@ static void list_block(struct relax *r, int k)
         r->count[i] = found;
         list->n += found;
         r->built[i] = r->bed->grain[i].pos;
+        const double d = r->bed->grain[i].diameter, margin = r->skin + STRIDE * d;
+        r->by_wall[i] =
+            r->walls && walls_gap(r->walls, r->built[i], 0.5 * d, margin, NULL) < margin;
     }
 }
 
@@ -124,13 +131,14 @@ static vec3 push_grain(struct relax *r, struct relax_block *s, int i)
     for (int m = r->begin[i]; m < r->begin[i] + r->count[i]; m++) {
         const struct placed *const q = &g[s->near[m]];
         const vec3 d = domain_minimum_image(r->bed->domain, v3_sub(p->pos, q->pos));
-        const double apart = 0.5 * (1.0 + r->swell) * (p->diameter + q->diameter);
+        const double touch = 0.5 * r->scale * (p->diameter + q->diameter);
+        const double apart = (1.0 + r->swell) * touch;
         const double square = v3_dot(d, d);
         if (square >= apart * apart)
             continue;
         const double distance = sqrt(square), depth = apart - distance;
-        const double real = 0.5 * (p->diameter + q->diameter) - distance;
-        s->overlap = fmax(s->overlap, real / fmin(p->diameter, q->diameter));
+        s->overlap =
+            fmax(s->overlap, (touch - distance) / (r->scale * fmin(p->diameter, q->diameter)));
         s->push += depth;
         touching++;
         /* two centres in one place part along x, the earlier one up */
@@ -142,13 +150,37 @@ static vec3 push_grain(struct relax *r, struct relax_block *s, int i)
     return net;
 }
 
+/* Of a force, one coordinate: not against a bound that the grain rests on. */
+static void rest(double x, double lo, double hi, double *f)
+{
+    if ((x <= lo && *f < 0.0) || (x >= hi && *f > 0.0))
+        *f = 0.0;
+}
+
+/* What is left of a force on a grain that rests on walls. */
+static vec3 borne(const struct relax *r, int i, vec3 f)
+{
+    const struct placed *const p = &r->bed->grain[i];
+    const struct fill_region *const g = &r->region[p->species];
+    const double radius = 0.5 * r->scale * p->diameter;
+    if (r->by_wall[i])
+        f = walls_bear(r->walls, p->pos, radius * (1.0 + 1e-9), f);
+    if (!g->open[0])
+        rest(p->pos.x, g->from[0] + radius, g->to[0] - radius, &f.x);
+    if (!g->open[1])
+        rest(p->pos.y, g->from[1] + radius, g->to[1] - radius, &f.y);
+    if (!g->open[2])
+        rest(p->pos.z, g->from[2] + radius, g->to[2] - radius, &f.z);
+    return f;
+}
+
 static void push_block(struct relax *r, int k)
 {
     struct relax_block *const s = &r->block[k];
     s->power = s->force = s->speed = s->overlap = s->net = s->push = 0.0;
     s->contacts = 0;
     for (int i = r->first + k * BLOCK; i < last_of(r, k); i++) {
-        const vec3 f = r->force[i] = push_grain(r, s, i);
+        const vec3 f = r->force[i] = borne(r, i, push_grain(r, s, i));
         s->power += v3_dot(f, r->vel[i]);
         s->force += v3_dot(f, f) / r->inertia[i];
         s->speed += v3_dot(r->vel[i], r->vel[i]) * r->inertia[i];
@@ -165,27 +197,48 @@ static void bound(double *x, double *v, double lo, double hi)
     }
 }
 
+/* Puts a grain that has entered walls back on their surfaces, and stops it there. */
+static void keep_clear(const struct relax *r, double radius, vec3 *x, vec3 *v)
+{
+    for (int k = 0; k < CORNERS; k++) {
+        vec3 way;
+        const double gap = walls_escape(r->walls, *x, radius, &way);
+        if (gap >= 0.0)
+            return;
+        *x = v3_axpy(*x, -gap, way);
+        *v = v3_axpy(*v, fmax(0.0, -v3_dot(*v, way)), way);
+    }
+}
+
+static void bound_grain(const struct relax *r, int i, vec3 *x, vec3 *v)
+{
+    const struct placed *const p = &r->bed->grain[i];
+    const struct fill_region *const g = &r->region[p->species];
+    const double radius = 0.5 * r->scale * p->diameter;
+    if (!g->open[0])
+        bound(&x->x, &v->x, g->from[0] + radius, g->to[0] - radius);
+    if (!g->open[1])
+        bound(&x->y, &v->y, g->from[1] + radius, g->to[1] - radius);
+    if (!g->open[2])
+        bound(&x->z, &v->z, g->from[2] + radius, g->to[2] - radius);
+    if (r->by_wall[i]) /* last: walls, and the box is one, are harder than a region */
+        keep_clear(r, radius, x, v);
+}
+
 static void move_block(struct relax *r, int k, double step, double keep, double steer)
 {
     struct relax_block *const s = &r->block[k];
     s->moved = 0.0;
     for (int i = r->first + k * BLOCK; i < last_of(r, k); i++) {
         struct placed *const p = &r->bed->grain[i];
-        const struct fill_region *const g = &r->region[p->species];
-        const double radius = 0.5 * p->diameter;
         const vec3 a = v3_scale(1.0 / r->inertia[i], r->force[i]);
         vec3 v = v3_axpy(v3_scale(keep, r->vel[i]), steer, a);
         v = v3_axpy(v, step, a);
-        const double speed = v3_norm(v) * step, most = 0.1 * p->diameter;
+        const double speed = v3_norm(v) * step, most = STRIDE * p->diameter;
         if (speed > most)
             v = v3_scale(most / speed, v);
         vec3 x = v3_axpy(p->pos, step, v);
-        if (!g->open[0])
-            bound(&x.x, &v.x, g->from[0] + radius, g->to[0] - radius);
-        if (!g->open[1])
-            bound(&x.y, &v.y, g->from[1] + radius, g->to[1] - radius);
-        if (!g->open[2])
-            bound(&x.z, &v.z, g->from[2] + radius, g->to[2] - radius);
+        bound_grain(r, i, &x, &v);
         p->pos = x;
         r->vel[i] = v;
         const vec3 moved = v3_sub(x, r->built[i]);
@@ -212,7 +265,7 @@ static struct relax_block total(const struct relax *r)
 }
 
 static void relax_open(struct relax *r, struct fill_grid *b, int first,
-                       const struct fill_region *region, double swell)
+                       const struct fill_region *region, const struct relax_goal *goal)
 {
     const size_t n = (size_t)b->n + 1;
     double least = (double)INFINITY, widest = 0.0;
@@ -220,8 +273,14 @@ static void relax_open(struct relax *r, struct fill_grid *b, int first,
         least = fmin(least, b->grain[i].diameter);
         widest = fmax(widest, b->grain[i].diameter);
     }
-    *r = (struct relax){.bed = b, .region = region, .first = first, .n = b->n, .swell = swell};
-    r->skin = SKIN * least + swell * widest;
+    *r = (struct relax){.bed = b,
+                        .region = region,
+                        .walls = goal->walls,
+                        .first = first,
+                        .n = b->n,
+                        .swell = goal->swell,
+                        .scale = goal->scale};
+    r->skin = SKIN * least + goal->swell * widest;
     r->blocks = (b->n - first + BLOCK - 1) / BLOCK;
     r->begin = xalloc(n, sizeof *r->begin);
     r->count = xalloc(n, sizeof *r->count);
@@ -229,6 +288,7 @@ static void relax_open(struct relax *r, struct fill_grid *b, int first,
     r->vel = xalloc(n, sizeof *r->vel);
     r->force = xalloc(n, sizeof *r->force);
     r->built = xalloc(n, sizeof *r->built);
+    r->by_wall = xalloc(n, sizeof *r->by_wall);
     r->block = xalloc((size_t)r->blocks + 1, sizeof *r->block);
 }
 
@@ -236,9 +296,23 @@ static void relax_close(struct relax *r)
 {
     for (int k = 0; k < r->blocks; k++)
         xfree(r->block[k].near);
-    void *const all[] = {r->begin, r->count, r->inertia, r->vel, r->force, r->built, r->block};
+    void *const all[] = {r->begin, r->count, r->inertia, r->vel,
+                         r->force, r->built, r->by_wall, r->block};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
+}
+
+/* Largest depth in a wall over the diameter: in a corner that is narrower than the grain. */
+static double into_walls(const struct relax *r)
+{
+    double worst = 0.0;
+    for (int i = r->first; i < r->n; i++) {
+        const struct placed *const p = &r->bed->grain[i];
+        const double d = r->scale * p->diameter;
+        if (r->by_wall[i])
+            worst = fmax(worst, -walls_gap(r->walls, p->pos, 0.5 * d, 0.0, NULL) / d);
+    }
+    return worst > 1e-9 ? worst : 0.0;
 }
 
 struct relaxed fill_relax(struct fill_grid *b, int first, const struct fill_region *region,
@@ -249,9 +323,11 @@ struct relaxed fill_relax(struct fill_grid *b, int first, const struct fill_regi
     double step = STEP, mix = MIX;
     int downhill = 0;
     sort_by_place(b, first);
-    relax_open(&r, b, first, region, goal->swell);
+    relax_open(&r, b, first, region, goal);
     const double room = r.skin - goal->swell * b->widest;
     list_all(&r);
+    for (int i = first; i < b->n; i++) /* those that have grown into a wall */
+        bound_grain(&r, i, &b->grain[i].pos, &r.vel[i]);
     for (;; result.sweeps++) {
 #pragma omp parallel for schedule(static)
         for (int k = 0; k < r.blocks; k++)
@@ -281,6 +357,7 @@ struct relaxed fill_relax(struct fill_grid *b, int first, const struct fill_regi
             list_all(&r);
     }
     rebuild_grid(b);
+    result.overlap = fmax(result.overlap, into_walls(&r));
     relax_close(&r);
     return result;
 }

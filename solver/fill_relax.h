@@ -11,23 +11,27 @@ struct fill_region {
     bool open[3];
 };
 
-/* When to stop. */
+/* At what size, and when to stop. */
 struct relax_goal {
-    double swell;   /* diameters are taken this part larger, so that the real ones end apart */
-    double overlap; /* of the real diameters, as part of the smaller: good enough */
+    double scale;   /* of the diameters: 1, or less while they grow */
+    double swell;   /* they are taken this part larger, so that they themselves end apart */
+    double overlap; /* without the swelling, as part of the smaller: good enough */
     double
         balance; /* largest net force over the mean force of a contact: good enough; 0: never */
     int sweeps;  /* at most */
+    const struct sim *walls; /* whose walls they keep clear of; NULL: of none */
 };
 
 struct relaxed {
-    double overlap; /* largest, of the real diameters, as part of the smaller diameter */
+    double overlap; /* largest, without the swelling, as part of the smaller diameter */
     double balance; /* see above */
     int sweeps;
 };
 
 /* Moves the grains from index `first` on, each within region[its species]; the others stay. Their
- * order changes: they are sorted by place. */
+ * order changes: they are sorted by place. A grain that does not touch a wall when this begins is
+ * never pushed through it: a step is a tenth of its diameter at most, and what enters a wall is put
+ * back on its surface. */
 struct relaxed fill_relax(struct fill_grid *b, int first, const struct fill_region *region,
                           const struct relax_goal *goal);
 

@@ -6,7 +6,7 @@
 #include "fill.h"
 #include "sim.h"
 
-#define FILLS "lattice | random | settle | unit_cell | point | file"
+#define FILLS "lattice | random | settle | grow | unit_cell | point | file"
 
 const struct key grains_keys[] = {
     {"grains", "density", KEY_REAL, "kg m-3", "(0, inf)", NULL, "density of the solid"},
@@ -17,6 +17,8 @@ const struct key grains_keys[] = {
     {"grains", "porosity", KEY_REAL, "1", "auto | (0, 1)", "auto",
      "porosity of their region, in place of count"},
     {"grains", "fill", KEY_CHOICE, "", FILLS, "lattice", "how the grains are placed"},
+    {"grains", "overlap", KEY_REAL, "1", "(0, 0.1]", "1e-3",
+     "of the smaller diameter, that fill = grow may leave: more of it, a denser packing"},
     {"grains", "frozen", KEY_CHOICE, "", "no | yes", "no", "a fixed skeleton that never moves"},
     {"grains", "material", KEY_TEXT, "", "", "",
      "its material; default: the species' own name"},

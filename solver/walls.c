@@ -274,6 +274,11 @@ int walls_near(const struct sim *s, int i, double margin, int **out, int *room, 
     return f.n;
 }
 
+static bool is_behind(const struct sim *s, const struct wall *w, vec3 x)
+{
+    return w->kind->behind && w->kind->behind(w->shape, into_frame(s, w, 0, x));
+}
+
 double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *which)
 {
     struct found f = {0};
@@ -289,7 +294,7 @@ double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *w
     }
     for (int k = 0; k < s->walls.n; k++) {
         const struct wall *const w = &s->walls.wall[k];
-        if (!w->kind->behind || !w->kind->behind(w->shape, into_frame(s, w, 0, x)))
+        if (!is_behind(s, w, x))
             continue;
         gap = -(double)INFINITY;
         if (which)
@@ -297,6 +302,46 @@ double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *w
     }
     xfree(f.x);
     return gap;
+}
+
+double walls_escape(const struct sim *s, vec3 x, double radius, vec3 *way)
+{
+    struct found f = {0};
+    double gap = 0.0;
+    walls_around(s, x, radius, &f);
+    for (int i = 0; i < f.n; i++) {
+        const vec3 away = wall_see(s, f.x[i], x).view.away;
+        const double distance = v3_norm(away);
+        const double side = is_behind(s, &s->walls.wall[s->walls.wall_of[f.x[i]]], x) ? -1 : 1;
+        if (!(distance > 0.0) || side * distance - radius >= gap)
+            continue;
+        gap = side * distance - radius;
+        *way = v3_scale(side / distance, away);
+    }
+    xfree(f.x);
+    return gap;
+}
+
+vec3 walls_bear(const struct sim *s, vec3 x, double radius, vec3 force)
+{
+    struct found f = {0};
+    walls_around(s, x, radius, &f);
+    for (int i = 0; i < f.n; i++) {
+        const vec3 away = wall_see(s, f.x[i], x).view.away;
+        const double square = v3_dot(away, away);
+        if (square > 0.0 && square < radius * radius)
+            force = v3_axpy(force, fmax(0.0, -v3_dot(force, away)) / square, away);
+    }
+    xfree(f.x);
+    return force;
+}
+
+bool walls_named(const struct sim *s)
+{
+    for (int k = 0; k < s->walls.n; k++)
+        if (s->walls.wall[k].kind != &wall_side)
+            return true;
+    return false;
 }
 
 void walls_check(struct sim *s, struct scene *scene)

@@ -72,6 +72,14 @@ int walls_near(const struct sim *s, int i, double margin, int **out, int *room, 
 /* m; room between a sphere at x and the nearest wall, at most `most`; negative: it overlaps, or is
  * behind a wall (then -INFINITY). `which`: that wall, if not NULL. */
 double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *which);
+/* m; the same for the wall that the sphere is deepest in, and the unit vector along which it must
+ * move by that much to be clear of it; 0 where it overlaps none. Behind a wall: -(distance +
+ * radius), the way back, if it is less than the radius behind. */
+double walls_escape(const struct sim *s, vec3 x, double radius, vec3 *way);
+/* What is left of a force on a sphere at rest on walls: no part of it presses into one. */
+vec3 walls_bear(const struct sim *s, vec3 x, double radius, vec3 force);
+/* Whether the scene has walls besides the sides of the box. */
+bool walls_named(const struct sim *s);
 
 /* Turns the sum of the forces of the last steps into an impulse: each step takes half of the force
  * at either end, as the kicks do. `now` is the force at the last of them. */

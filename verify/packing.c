@@ -105,9 +105,8 @@ static bool jam(unsigned long seed, int n, double *phi_j, double *z_j, double *r
     for (int k = 0; k < STATES; k++) {
         struct state *const s = &state[jammed];
         swell(&b, excess[k]);
-        const struct relaxed r =
-            fill_relax(&b, 0, &all,
-                       &(struct relax_goal){.overlap = 0.0, .balance = 1e-7, .sweeps = 40000});
+        const struct relaxed r = fill_relax(
+            &b, 0, &all, &(struct relax_goal){.scale = 1.0, .balance = 1e-7, .sweeps = 40000});
         s->phi = excess[k];
         s->coordination = coordination(&b, &s->pressure, &s->rattlers, 4, 0.0, 1.0);
         printf("    seed %lu: solid %.4f, pressure %.3e, coordination %.3f, rattlers %.1f %%, "
