@@ -11,7 +11,8 @@
     "[domain]\nsize = 13 12 11 mm\n[wall c]\nkind = cylinder\npoint = 6.1 5.7 0 mm\n"          \
     "axis = 0 0 1\nradius = 5.3 mm\nside = in\n"
 #define CONE                                                                                   \
-    "[domain]\nsize = 13 12 11 mm\n[wall c]\nkind = cone\npoint = 6.1 5.7 0 mm\naxis = 0 0 1\n" \
+    "[domain]\nsize = 13 12 11 mm\n[wall c]\nkind = cone\npoint = 6.1 5.7 0 mm\naxis = 0 0 "   \
+    "1\n"                                                                                      \
     "radius = 1.1 mm\nradius_end = 5.3 mm\nlength = 11 mm\nside = in\n"
 #define SLOPE                                                                                  \
     "[domain]\nsize = 13 12 11 mm\ny = periodic\n[wall p]\npoint = 0 0 3 mm\n"                 \
@@ -25,8 +26,8 @@ static void worst(const struct sim *s, double *pair, double *wall)
     const struct grains *const g = &s->grains;
     *pair = *wall = -1.0;
     for (int i = 0; i < g->n; i++) {
-        *wall = fmax(*wall, -walls_gap(s, g->pos[i], g->radius[i], g->radius[i], NULL) /
-                                g->radius[i]);
+        *wall = fmax(*wall,
+                     -walls_gap(s, g->pos[i], g->radius[i], g->radius[i], NULL) / g->radius[i]);
         for (int j = 0; j < i; j++) {
             const vec3 r = domain_minimum_image(&s->domain, v3_sub(g->pos[i], g->pos[j]));
             const double depth = g->radius[i] + g->radius[j] - v3_norm(r);
@@ -37,8 +38,8 @@ static void worst(const struct sim *s, double *pair, double *wall)
 
 static struct sim *make(const char *place, const char *keys)
 {
-    char *const text = xprintf("%s[grains a]\ndensity = 2500 kg/m3\nmaterial = m\n%s" REST,
-                               place, keys);
+    char *const text =
+        xprintf("%s[grains a]\ndensity = 2500 kg/m3\nmaterial = m\n%s" REST, place, keys);
     struct sim *const s = sim_from(text);
     xfree(text);
     return s;
@@ -89,8 +90,8 @@ int main(void)
           "porosity = 0.36\n",
           343e-9, 0.36);
     grows("porosity grown to in a cylinder", CYLINDER,
-          "diameter = 1.1 mm\nfill = grow\nporosity = 0.45\n",
-          PI * 5.3e-3 * 5.3e-3 * 11e-3, 0.45);
+          "diameter = 1.1 mm\nfill = grow\nporosity = 0.45\n", PI * 5.3e-3 * 5.3e-3 * 11e-3,
+          0.45);
     struct sim *const a = make(CYLINDER, "diameter = 1.1 mm\nfill = grow\nporosity = 0.47\n");
     omp_set_num_threads(3);
     struct sim *const b = make(CYLINDER, "diameter = 1.1 mm\nfill = grow\nporosity = 0.47\n");
