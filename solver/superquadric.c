@@ -109,6 +109,17 @@ vec3 superquadric_support(const struct superquadric *s, vec3 n)
     return superquadric_support_curved(s, n, NULL);
 }
 
+/* The product of the two nonzero eigenvalues of the Hessian, which has n in its kernel: the trace of
+ * its adjugate. */
+double superquadric_curvature_radius(const struct superquadric *s, vec3 n)
+{
+    struct symmetric m;
+    superquadric_support_curved(s, n, &m);
+    const double minors =
+        m.xx * m.yy - m.xy * m.xy + m.xx * m.zz - m.xz * m.xz + m.yy * m.zz - m.yz * m.yz;
+    return sqrt(fmax(0.0, minors));
+}
+
 double superquadric_volume(const struct superquadric *s)
 {
     const double e1 = 2.0 / s->n1, e2 = 2.0 / s->n2;

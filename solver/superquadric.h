@@ -52,6 +52,9 @@ double superquadric_volume(const struct superquadric *s); /* m3 */
 double superquadric_radius(const struct superquadric *s); /* m, of the bounding sphere */
 void superquadric_inertia(const struct superquadric *s, double i[3]); /* m5, per unit density */
 
+/* m; the root of the product of the radii of curvature where the outward normal is the unit n. */
+double superquadric_curvature_radius(const struct superquadric *s, vec3 n);
+
 /* A body at its place, its half axes times `size`. */
 struct superquadric_placed {
     const struct superquadric *shape;

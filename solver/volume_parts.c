@@ -89,7 +89,7 @@ static void cut(struct cutting *c, vec3 centre)
 }
 
 /* Volume (0: as it is) and centre as they must be. */
-static void settle(struct cutting *c, double volume, vec3 centre)
+static void settle(struct cutting *c, double volume, const vec3 *centre)
 {
     double sum = 0.0;
     vec3 moment = v3(0.0, 0.0, 0.0);
@@ -97,7 +97,7 @@ static void settle(struct cutting *c, double volume, vec3 centre)
         sum += c->part[k].volume;
         moment = v3_axpy(moment, c->part[k].volume, c->part[k].at);
     }
-    const vec3 shift = v3_axpy(centre, -1.0 / sum, moment);
+    const vec3 shift = centre ? v3_axpy(*centre, -1.0 / sum, moment) : v3(0.0, 0.0, 0.0);
     for (int k = 0; k < c->n; k++) {
         c->part[k].volume *= volume > 0.0 ? volume / sum : 1.0;
         c->part[k].at = v3_add(c->part[k].at, shift);
@@ -105,7 +105,7 @@ static void settle(struct cutting *c, double volume, vec3 centre)
 }
 
 struct shape_part *volume_shape_parts(volume_depth *depth, const void *body, vec3 lo, vec3 hi,
-                                      double spacing, double volume, vec3 centre, int *n)
+                                      double spacing, double volume, const vec3 *centre, int *n)
 {
     const vec3 size = v3_sub(hi, lo), middle = v3_scale(0.5, v3_add(lo, hi));
     const int number[3] = {(int)ceil(size.x / spacing), (int)ceil(size.y / spacing),
@@ -125,7 +125,7 @@ struct shape_part *volume_shape_parts(volume_depth *depth, const void *body, vec
 }
 
 struct parts volume_parts(volume_depth *depth, const void *body, vec3 lo, vec3 hi,
-                          double spacing, vec3 centre)
+                          double spacing, const vec3 *centre)
 {
     int n;
     struct shape_part *const part =

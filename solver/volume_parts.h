@@ -14,14 +14,15 @@ struct shape_part;
 typedef double volume_depth(const void *body, vec3 x);
 
 /* Cuts a body, which lies in the box lo..hi, into parts no wider than `spacing`; their centre is moved
- * to `centre`. Free with parts_free. */
+ * to `centre` (NULL: is left where it is). Free with parts_free. */
 struct parts volume_parts(volume_depth *depth, const void *body, vec3 lo, vec3 hi,
-                          double spacing, vec3 centre);
+                          double spacing, const vec3 *centre);
 
-/* The same parts with volumes that add up to `volume`, as an answer of shapes/ gives them: *n of
+/* The same parts with volumes that add up to `volume` (0: left as they are), as an answer of shapes/ gives them: *n of
  * them, free with xfree. */
 struct shape_part *volume_shape_parts(volume_depth *depth, const void *body, vec3 lo, vec3 hi,
-                                      double spacing, double volume, vec3 centre, int *n);
+                                      double spacing, double volume, const vec3 *centre,
+                                      int *n);
 
 /* What the grid takes of an answer's parts. */
 struct parts parts_of(const struct shape_part *part, int n);

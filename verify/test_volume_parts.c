@@ -50,8 +50,8 @@ static struct superquadric body(double blockiness)
 
 static struct parts cut(const struct superquadric *s, double spacing)
 {
-    const vec3 hi = v3(s->a[0], s->a[1], s->a[2]);
-    return volume_parts(depth, s, v3_scale(-1.0, hi), hi, spacing, v3(0, 0, 0));
+    const vec3 hi = v3(s->a[0], s->a[1], s->a[2]), centre = v3(0, 0, 0);
+    return volume_parts(depth, s, v3_scale(-1.0, hi), hi, spacing, &centre);
 }
 
 static void test_moments(double blockiness)
