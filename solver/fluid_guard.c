@@ -2,19 +2,6 @@
  * velocities cannot be right. */
 #include "fluid_state.h"
 
-double fluid_divergence(const struct sim *s, int c)
-{
-    const struct fluid *const f = &s->fluid;
-    double sum = f->bare ? 0.0 : f->rate ? f->rate[c] : (f->eps[c] - f->eps_old[c]) / f->dt;
-    for (int a = 0; a < 3; a++) {
-        const int up = c + s->grid.s[a];
-        const double hi = f->bare ? f->u[a][up] : f->eps_f[a][up] * f->u[a][up];
-        const double lo = f->bare ? f->u[a][c] : f->eps_f[a][c] * f->u[a][c];
-        sum += (hi - lo) / s->grid.h[a];
-    }
-    return sum;
-}
-
 /* Largest |x|, NAN if one is not finite; eight at a time, which the compiler makes vectors of. */
 static double largest(const double *restrict x, int n)
 {

@@ -58,11 +58,8 @@ static inline double fluid_gradient(const struct sim *s, const double *p, int a,
 /* Pressure on a side: the mean over its faces of p + G h/2, or of the value held. */
 double fluid_boundary_pressure(const struct sim *s, int side);
 
-/* Superficial divergence plus d(eps)/dt of cell c, 1/s; the latter by difference in time, or
- * fluid.rate where there is one. */
-double fluid_divergence(const struct sim *s, int c);
-
-/* out = scale times that, on all cells; returns, among grains, the largest u/h, 1/s. */
+/* out = scale times the residual of continuity on all cells, 1/s: div(eps u) plus the difference of
+ * eps in time, or fluid.rate where there is one; returns, among grains, the largest u/h, 1/s. */
 double fluid_divergences(const struct sim *s, double scale, double *out);
 
 /* Sets fluid.divergence and fluid.courant; stops the run (EXIT_UNSTABLE) where a velocity is

@@ -75,6 +75,7 @@ static void check_source(void)
         worst = fmax(worst, fabs(head(s, k) - exact));
         most = fmax(most, exact);
     }
+    check(s->fluid.divergence < 1e-10, "continuity with a source: %.2g", s->fluid.divergence);
     check(worst < 1e-5 * most, "a source between two heads: %.2g of the largest head off",
           worst / most);
     sim_free(s);
@@ -116,9 +117,10 @@ static void check_consolidation(void)
     char *const fluid =
         xprintf("compressibility = %.17g 1/Pa\nhead = 2.7 um\ndt = %.17g s\n", m_v, dt);
     struct sim *const s = column(n, "z- = wall\nz+ = head\n", fluid);
-    double worst = 0.0, worst_u = 0.0;
+    double worst = 0.0, worst_u = 0.0, residual = 0.0;
     for (int k = 0, row = 0; k < steps; k++) {
         step(s);
+        residual = fmax(residual, s->fluid.divergence);
         const double T = c_v * s->t / (L * L);
         double mean = 0.0;
         for (int i = 1; i <= n; i++) {
@@ -143,6 +145,7 @@ static void check_consolidation(void)
             row++;
         }
     }
+    check(residual < 1e-10, "consolidation: continuity with storage %.2g", residual);
     check(worst < 5e-3, "consolidation: head within %.2g of the first, against the series",
           worst);
     check(worst_u < 5e-3, "consolidation: U against Terzaghi's table: %.2g off", worst_u);

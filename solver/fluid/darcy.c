@@ -68,6 +68,7 @@ struct fluid_work {
     double along[3]; /* m/s, in each direction */
     struct wells wells;
     double gravity; /* m/s2, for heads */
+    double least;   /* m2/(Pa s), smallest of the conductivities */
     double held;    /* faces whose conductivity is held, for the series */
     double iterations;
 };
@@ -150,6 +151,7 @@ void fluid_create(struct sim *s, struct scene *scene)
     w->p_new = grid_field(&s->grid);
     w->dp = grid_field(&s->grid);
     w->made = grid_field(&s->grid);
+    s->fluid.rate = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
         w->conductivity[a] = grid_field(&s->grid);
         w->u_before[a] = grid_field(&s->grid);
@@ -169,6 +171,7 @@ void fluid_free(struct sim *s)
         xfree(w->p_new);
         xfree(w->dp);
         xfree(w->made);
+        xfree(s->fluid.rate);
         for (int a = 0; a < 3; a++) {
             xfree(w->conductivity[a]);
             xfree(w->u_before[a]);
@@ -241,6 +244,7 @@ static void conductivities(struct sim *s)
             "no cell resists the flow at t = %.9g s: darcy needs grains and a drag "
             "law other than none, or fluid.conductivity",
             s->t);
+    w->least = of_all;
     for (int a = 0; a < 3 && !w->given; a++)
         w->held += (double)hold(s, a, w->contrast * of_all);
 }
@@ -301,6 +305,26 @@ static void set_velocity(struct sim *s, const double *p)
                 }
 }
 
+/* What continuity has besides div(eps u), at pressure p: d(eps)/dt + S dp/dt - q.
+ * Returns the largest of the last two. */
+static double set_rate(struct sim *s, const double *p)
+{
+    const struct fluid *const f = &s->fluid;
+    const struct grid *const g = &s->grid;
+    const struct fluid_work *const w = f->work;
+    const double shift = w->storage / (f->rho * w->gravity * f->dt);
+    double scale = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : scale)
+    for (int k = 1; k <= g->n[2]; k++)
+        for (int j = 1; j <= g->n[1]; j++)
+            for (int c = cell(g, 1, j, k); c <= cell(g, g->n[0], j, k); c++) {
+                const double stored = shift * (p[c] - f->p[c]);
+                f->rate[c] = (f->eps[c] - f->eps_old[c]) / f->dt + stored - w->made[c];
+                scale = fmax(scale, fabs(stored) + fabs(w->made[c]));
+            }
+    return scale;
+}
+
 /* One linear solve: the new pressure for the conductivities at hand, as a change to p_new. */
 static void solve_head(struct sim *s)
 {
@@ -309,17 +333,8 @@ static void solve_head(struct sim *s)
     struct fluid_work *const w = f->work;
     const double shift = w->storage / (f->rho * w->gravity * f->dt);
     set_velocity(s, w->p_new); /* what the guess lets through: the residual */
-    double scale = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : scale)
-    for (int k = 1; k <= g->n[2]; k++)
-        for (int j = 1; j <= g->n[1]; j++)
-            for (int c = cell(g, 1, j, k); c <= cell(g, g->n[0], j, k); c++) {
-                const double stored = shift * (w->p_new[c] - f->p[c]);
-                w->rhs[c] = fluid_divergence(s, c) + stored - w->made[c];
-                for (int a = 0; a < 3; a++)
-                    scale = fmax(scale, fabs(f->u[a][c]) * f->eps_f[a][c] / g->h[a]);
-                scale = fmax(scale, fabs(stored) + fabs(w->made[c]));
-            }
+    const double made = set_rate(s, w->p_new);
+    const double scale = fmax(made, fluid_divergences(s, 1.0, w->rhs));
     const double lost = pressure_imbalance(w->pressure, shift, w->rhs);
     if (lost > 1e-6 && scale > 0.0)
         die(EXIT_UNSTABLE, "what flows into the closed box has nowhere to go at t = %.9g s",
@@ -339,21 +354,22 @@ static void solve_head(struct sim *s)
     for (size_t c = 0; c < g->total; c++)
         w->p_new[c] += w->dp[c];
     set_velocity(s, w->p_new);
+    set_rate(s, w->p_new);
 }
 
 /* Largest change of a velocity since u_before, and its distance from the one that the drag was
- * taken at, over the largest velocity. */
+ * taken at, over the largest velocity. What a gradient of 1e-12 would drive is rest. */
 static double change(const struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
-    double most = 0.0, fastest = 0.0;
+    double most = 0.0, fastest = 1e-12 * f->work->least * f->rho * f->work->gravity;
     for (int a = 0; a < 3; a++)
         for (size_t c = 0; c < s->grid.total; c++) {
             const double off = f->eps_f[a][c] * f->u[a][c] - s->coupling.u_drag[a][c];
             most = fmax(most, fmax(fabs(f->u[a][c] - f->work->u_before[a][c]), fabs(off)));
             fastest = fmax(fastest, fabs(f->u[a][c]));
         }
-    return fastest > 0.0 ? most / fastest : 0.0;
+    return most / fastest;
 }
 
 void fluid_step(struct sim *s)

@@ -30,7 +30,8 @@ struct fluid {
     double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the
                           rest */
     bool bare;         /* there are no grains: eps = 1; eps*, drag*, stress are NULL */
-    double *rate;      /* 1/s on cells, d(eps)/dt by the grains' flux; or NULL */
+    double *rate;      /* 1/s on cells, what continuity has besides div(eps u): d(eps)/dt by the
+                          grains' flux, storage, sources; NULL: (eps - eps_old)/dt */
     int pieces;        /* grain steps per fluid step where no grain sets them (auto) */
     bool implicit_viscosity; /* no limit of the time step by viscosity */
     const char *equation;    /* the form of the momentum equation, for the log; or NULL */
@@ -39,8 +40,8 @@ struct fluid {
     long steps;              /* taken so far */
     int iterations;          /* of the last pressure solve */
     double residual;         /* relative, of the last pressure solve */
-    double divergence;       /* largest |d(eps)/dt + div(eps u)| h / U after the last step */
-    double courant;          /* largest sum over directions of u dt / h at the last step */
+    double divergence; /* largest residual of continuity, times h/U, after the last step */
+    double courant;    /* largest sum over directions of u dt / h at the last step */
 };
 
 extern const struct about fluid_about;
