@@ -358,7 +358,8 @@ static void solve_head(struct sim *s)
 }
 
 /* Largest change of a velocity since u_before, and its distance from the one that the drag was
- * taken at, over the largest velocity. What a gradient of 1e-12 would drive is rest. */
+ * taken at, over the largest velocity, of the grains too. What a gradient of 1e-12 would drive is
+ * rest. */
 static double change(const struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
@@ -368,6 +369,8 @@ static double change(const struct sim *s)
             const double off = f->eps_f[a][c] * f->u[a][c] - s->coupling.u_drag[a][c];
             most = fmax(most, fmax(fabs(f->u[a][c] - f->work->u_before[a][c]), fabs(off)));
             fastest = fmax(fastest, fabs(f->u[a][c]));
+            if (f->drag[a][c] > 0.0)
+                fastest = fmax(fastest, fabs(f->drag_s[a][c] / f->drag[a][c]));
         }
     return most / fastest;
 }
