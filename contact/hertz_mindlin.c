@@ -24,7 +24,8 @@ const struct about contact_about = {
     .summary = "Hertz with Tsuji's damping, Mindlin no-slip tangential force, Coulomb's limit",
     .equation = "F_n = 4/3 E* sqrt(R*) d^1.5 - c_n v_n; dF_t = -8 G* sqrt(R* d) v_t dt",
     .source = "[Hertz1882], [Mindlin49], [Tsuji92], [Thornton13]",
-    .range = "elastic spheres, overlaps below a few % of the radius"};
+    .range = "elastic spheres, overlaps below a few % of the radius",
+    .cost = "a spring in the plane with memory, its turn and its limit, a second root"};
 
 const struct key contact_keys[] = {ELASTIC_KEYS, DAMPING_KEYS, FRICTION_KEYS, {0}};
 

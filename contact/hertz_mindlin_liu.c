@@ -27,7 +27,8 @@ const struct about contact_about = {
     .equation =
         "F_n = k_n d^1.5 - c_n v_n; F_t = -mu k_n d^1.5 (1 - (1 - s/s_max)^1.5) - c_t v_t",
     .source = "[Li23, eqs 16, 17], [Hertz1882], [Mindlin49], [Tsuji92]",
-    .range = "elastic bodies, overlaps below a few % of the radius"};
+    .range = "elastic bodies, overlaps below a few % of the radius",
+    .cost = "the same as hertz_mindlin and powers 1.5 and 0.5 of the spring over its limit"};
 
 const struct key contact_keys[] = {ELASTIC_KEYS, DAMPING_KEYS, FRICTION_KEYS, {0}};
 

@@ -19,7 +19,8 @@ const struct about contact_about = {
     .summary = "linear spring and dashpot, Coulomb friction with a tangential spring",
     .equation = "F_n = k_n d - c_n v_n; F_t = -k_t s - c_t v_t, |F_t| <= mu F_n",
     .source = "[CundallStrack79]; restitution [SchwagerPoeschel07, eq. 13]",
-    .range = "any speed; k chosen for overlaps below a few % of the radius"};
+    .range = "any speed; k chosen for overlaps below a few % of the radius",
+    .cost = "a spring in the plane with memory, its turn and its limit"};
 
 const struct key contact_keys[] = {
     {"material", "stiffness", KEY_REAL, "N m-1", "(0, inf)", NULL,

@@ -23,7 +23,8 @@ const struct about drag_about = {
     .equation = "Fhat = y {10 phi/eps^2 + eps^2 (1 + 1.5 sqrt(phi)) + 0.413 Re/(24 eps^2) "
                 "[1/eps + 3 eps phi + 8.4 Re^-0.343]/[1 + 10^(3 phi) Re^-(1+4 phi)/2]}",
     .source = "[Beetstra07]",
-    .range = "eps 0.4 to 0.9, Re < 1000"};
+    .range = "eps 0.4 to 0.9, Re < 1000",
+    .cost = "a logarithm, two exponentials and a root"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.4, .eps_max = 0.9, .re_max = 1000.0, .sauter = true, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

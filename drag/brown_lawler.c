@@ -14,7 +14,8 @@ const struct about drag_about = {.name = "brown_lawler",
                                  .equation =
                                      "Fhat = 1 + 0.15 Re^0.681 + (0.407/24) Re^2/(Re + 8710)",
                                  .source = "[BrownLawler03]",
-                                 .range = "one sphere on its own (eps above 0.99), Re < 2e5"};
+                                 .range = "one sphere on its own (eps above 0.99), Re < 2e5",
+                                 .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

@@ -14,7 +14,8 @@ const struct about drag_about = {
     .summary = "Clift and Gauvin's isolated sphere",
     .equation = "Fhat = 1 + 0.15 Re^0.687 + (0.42/24) Re/(1 + 42500 Re^-1.16)",
     .source = "[CliftGauvin71]",
-    .range = "one sphere on its own (eps above 0.99), Re < 3e5"};
+    .range = "one sphere on its own (eps above 0.99), Re < 3e5",
+    .cost = "two powers of Re: a logarithm and two exponentials"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.99, .eps_max = 1.0, .re_max = 3e5, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

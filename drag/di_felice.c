@@ -17,13 +17,14 @@
 
 #include "formulas.h"
 
-const struct about drag_about = {.name = "di_felice",
-                                 .summary =
-                                     "Di Felice's voidage function on Dallavalle's sphere",
-                                 .equation = "Fhat = (0.63 sqrt(Re) + 4.8)^2/24 eps^-chi, chi "
-                                             "= 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]",
-                                 .source = "[DiFelice94]; [Dallavalle48]",
-                                 .range = "eps 0.4 to 1, Re < 1e4 (fitted above 0.01)"};
+const struct about drag_about = {
+    .name = "di_felice",
+    .summary = "Di Felice's voidage function on Dallavalle's sphere",
+    .equation = "Fhat = (0.63 sqrt(Re) + 4.8)^2/24 eps^-chi, chi "
+                "= 3.7 - 0.65 exp[-(1.5 - log10 Re)^2/2]",
+    .source = "[DiFelice94]; [Dallavalle48]",
+    .range = "eps 0.4 to 1, Re < 1e4 (fitted above 0.01)",
+    .cost = "two logarithms and two exponentials: eps to a power that follows log Re"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .isolated = 0.96};
 const struct key drag_keys[] = {{0}};

@@ -33,14 +33,19 @@ static inline double sphere_dallavalle(double re)
     return root * root / 24.0;
 }
 
-/* exp[-(1.5 - log10 Re)^2/2] of Di Felice's exponent; 0 at Re = 0 (below 1e-12 it is under
- * 1e-39). */
+/* exp[-(1.5 - log10 Re)^2/2] of Di Felice's exponent, of log Re. */
+static inline double intermediate_of(double log_re)
+{
+    const double x = 1.5 - 0.43429448190325182765 * log_re;
+    return exp(-0.5 * x * x);
+}
+
+/* The same of Re; 0 at Re = 0 (below 1e-12 it is under 1e-39). */
 static inline double sphere_intermediate(double re)
 {
     if (!(re > 1e-12))
         return 0.0;
-    const double x = 1.5 - 0.43429448190325182765 * log(re);
-    return exp(-0.5 * x * x);
+    return intermediate_of(log(re));
 }
 
 /* Ergun's factor, see ergun.c. */

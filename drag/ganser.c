@@ -22,7 +22,8 @@ const struct about drag_about = {
     .summary = "Ganser's isolated grain of any shape",
     .equation = "Fhat = [1 + 0.1118 X^0.6567 + (0.4305/24) X^2/(X + 3305)]/K1, X = Re K1 K2",
     .source = "[Ganser93]",
-    .range = "one grain on its own (eps above 0.99), Re K1 K2 < 1e5"};
+    .range = "one grain on its own (eps above 0.99), Re K1 K2 < 1e5",
+    .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {.eps_min = 0.99,
                                         .eps_max = 1.0,
                                         .re_max = 1e5,

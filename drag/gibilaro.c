@@ -12,7 +12,8 @@ const struct about drag_about = {.name = "gibilaro",
                                  .summary = "Gibilaro's law of fluidised beds",
                                  .equation = "Fhat = (17.3 + 0.336 Re) eps^-3.8/18",
                                  .source = "[Gibilaro85]",
-                                 .range = "eps 0.4 to 1, Re < 1e4"};
+                                 .range = "eps 0.4 to 1, Re < 1e4",
+                                 .cost = "a power of eps: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .isolated = 17.3 / 18.0};
 const struct key drag_keys[] = {{0}};

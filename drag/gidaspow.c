@@ -19,7 +19,8 @@ const struct about drag_about = {
         "Fhat = [150 (1-eps) + 1.75 Re]/(18 eps^2), eps <= 0.8; (C_D Re/24) eps^-3.65 above",
     .source = "[Gidaspow94]; [Ergun52]; [WenYu66]",
     .range =
-        "eps 0.35 to 1, Re < 2e5 (beds: Re/(1-eps) < 2500); jumps at eps = 0.8 by up to 73 %"};
+        "eps 0.35 to 1, Re < 2e5 (beds: Re/(1-eps) < 2500); jumps at eps = 0.8 by up to 73 %",
+    .cost = "Wen and Yu's two powers for the part of grains in dilute flow"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.35, .eps_max = 1.0, .re_max = 2e5, .jump = 0.7325, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

@@ -15,7 +15,8 @@ const struct about drag_about = {
     .summary = "Ergun's and Wen and Yu's law, blended about eps = 0.8",
     .equation = "Fhat = w WenYu + (1-w) Ergun, w = 1/2 + atan[262.5 (eps - 0.8)]/pi",
     .source = "[HuilinGidaspow03]; [Ergun52]; [WenYu66]",
-    .range = "eps 0.35 to 1, Re < 2e5 (beds: Re/(1-eps) < 2500)"};
+    .range = "eps 0.35 to 1, Re < 2e5 (beds: Re/(1-eps) < 2500)",
+    .cost = "Wen and Yu's two powers and an arc tangent"};
 const struct drag_limits drag_limits = {.eps_min = 0.35,
                                         .eps_max = 1.0,
                                         .re_max = 2e5,

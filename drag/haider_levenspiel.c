@@ -25,7 +25,8 @@ const struct about drag_about = {
     .equation = "Fhat = 1 + A Re^B + (C/24) Re^2/(Re + D), A to D of the sphericity",
     .source = "[HaiderLevenspiel89]",
     .range = "one grain on its own (eps above 0.99), sphericity 0.5 to 1 (best above 0.67), Re "
-             "< 2.5e4"};
+             "< 2.5e4",
+    .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {.eps_min = 0.99,
                                         .eps_max = 1.0,
                                         .re_max = 2.5e4,

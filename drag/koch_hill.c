@@ -53,7 +53,8 @@ const struct about drag_about = {
     .summary = "Hill, Koch and Ladd's law, Benyahia, Syamlal and O'Brien's form",
     .equation = "Fhat = eps F; F = F0 + F1 R^2 at small, F2 + F3 R at large R = Re/2",
     .source = "[BenyahiaSyamlalOBrien06]; [HillKochLadd01]",
-    .range = "eps 0.36 to 1, Re < 200; jumps at eps = 0.99 by 22 %"};
+    .range = "eps 0.36 to 1, Re < 200; jumps at eps = 0.99 by 22 %",
+    .cost = "a logarithm, an exponential and two roots, and a choice of branch"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.36, .eps_max = 1.0, .re_max = 200.0, .jump = 0.2183, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

@@ -27,7 +27,8 @@ const struct about drag_about = {.name = "koch_hill_linear",
                                  .summary = "Hill, Koch and Ladd's law, linear in Re",
                                  .equation = "Fhat = eps [F0(phi) + F3(phi) Re/2]",
                                  .source = "[KochHill01]",
-                                 .range = "eps 0.36 to 1, Re < 100; jumps at eps = 0.6 by 1 %"};
+                                 .range = "eps 0.36 to 1, Re < 100; jumps at eps = 0.6 by 1 %",
+                                 .cost = "a logarithm and a root"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.36, .eps_max = 1.0, .re_max = 100.0, .jump = 0.0104, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

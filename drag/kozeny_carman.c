@@ -26,7 +26,8 @@ const struct about drag_about = {
     .summary = "Kozeny and Carman's permeability, constant as asked",
     .equation = "Fhat = (constant/18) (1-eps)/eps^2; above eps_cap: permeability of eps_cap",
     .source = "[Kozeny27]; [Carman37]",
-    .range = "packed beds, eps 0.35 to 0.7, Re/(1-eps) < 1"};
+    .range = "packed beds, eps 0.35 to 0.7, Re/(1-eps) < 1",
+    .cost = "two divisions and a limit"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.35, .eps_max = 0.7, .re_max = 1.0, .per_solid = true};
 const struct key drag_keys[] = {

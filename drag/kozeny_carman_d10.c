@@ -22,7 +22,8 @@ const struct about drag_about = {.name = "kozeny_carman_d10",
                                      "Kozeny and Carman's permeability, effective diameter D10",
                                  .equation = "Fhat = (constant/18) (1-eps)/eps^2 (d/D10)^2",
                                  .source = "[YinetAl21]; [Carman37]",
-                                 .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1"};
+                                 .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1",
+                                 .cost = "two divisions and a limit"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.2, .eps_max = 0.7, .re_max = 1.0, .per_solid = true};
 const struct key drag_keys[] = {

@@ -19,7 +19,8 @@ const struct about drag_about = {
         "permeability measured at one porosity, carried to others as Kozeny and Carman's",
     .equation = "k = k0 (eps/eps0)^3 ((1-eps0)/(1-eps))^2",
     .source = "[DingetAl20]; [Carman37]",
-    .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1"};
+    .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1",
+    .cost = "two divisions and a limit"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.2, .eps_max = 0.7, .re_max = 1.0, .per_solid = true};
 const struct key drag_keys[] = {

@@ -23,7 +23,8 @@ const struct about drag_about = {
     .summary = "Kozeny and Carman's permeability by surface, shape and tortuosity",
     .equation = "Fhat = 2 shape_factor tortuosity^2 (y/sphericity)^2 (1-eps)/eps^2",
     .source = "[TangetAl17]; [Carman37]",
-    .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1"};
+    .range = "packed beds, eps 0.2 to 0.7, Re/(1-eps) < 1",
+    .cost = "two divisions and a limit"};
 const struct drag_limits drag_limits = {.eps_min = 0.2,
                                         .eps_max = 0.7,
                                         .re_max = 1.0,

@@ -16,7 +16,8 @@ const struct about drag_about = {
     .equation = "Fhat = (0.63 sqrt(Re) + 4.8)^2/24 eps^-b, b = 2.65 (eps+1) - (5.3 - 3.5 eps) "
                 "eps^2 exp[-(1.5 - log10 Re)^2/2]",
     .source = "[RongDongYu13]; [Dallavalle48]",
-    .range = "eps 0.37 to 1, Re < 3000"};
+    .range = "eps 0.37 to 1, Re < 3000",
+    .cost = "two logarithms and two exponentials: eps to a power that follows log Re"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.37, .eps_max = 1.0, .re_max = 3000.0, .isolated = 0.96};
 const struct key drag_keys[] = {{0}};

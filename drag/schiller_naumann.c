@@ -17,7 +17,8 @@ const struct about drag_about = {.name = "schiller_naumann",
                                  .equation =
                                      "Fhat = 1 + 0.15 Re^0.687, Re < 1000; 0.44 Re/24 above",
                                  .source = "[SchillerNaumann35]",
-                                 .range = "one sphere on its own (eps above 0.99), Re < 2e5"};
+                                 .range = "one sphere on its own (eps above 0.99), Re < 2e5",
+                                 .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .jump = 0.0039, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

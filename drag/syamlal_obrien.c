@@ -22,7 +22,8 @@ const struct about drag_about = {
     .summary = "Syamlal and O'Brien's law, from terminal velocities",
     .equation = "Fhat = (0.63 sqrt(Re_s/V) + 4.8)^2/(24 V), V the suspension's velocity ratio",
     .source = "[SyamlalOBrien87]; [Dallavalle48]",
-    .range = "eps 0.4 to 1, Re < 1e4"};
+    .range = "eps 0.4 to 1, Re < 1e4",
+    .cost = "two powers of eps and a root"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.4, .eps_max = 1.0, .re_max = 1e4, .jump = 0.00096, .isolated = 0.96};
 const struct key drag_keys[] = {

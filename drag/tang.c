@@ -23,7 +23,8 @@ const struct about drag_about = {
     .equation = "Fhat = 10 phi/eps^2 + eps^2 (1 + 1.5 sqrt(phi)) + Re {0.11 phi (1+phi) - "
                 "0.00456/eps^4 + [0.169 eps + 0.0644/eps^4] Re^-0.343}",
     .source = "[TangetAl15]; [TangetAl16]",
-    .range = "eps 0.4 to 1, Re < 1000"};
+    .range = "eps 0.4 to 1, Re < 1000",
+    .cost = "a power of Re and a root"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.4, .eps_max = 1.0, .re_max = 1000.0, .isolated = 1.0};
 const struct key drag_keys[] = {{"drag", "mobility", KEY_CHOICE, "", "off | on", "off",

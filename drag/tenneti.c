@@ -19,7 +19,8 @@ const struct about drag_about = {
     .equation = "Fhat = eps {F_iso/eps^3 + 5.81 phi/eps^3 + 0.48 phi^(1/3)/eps^4 + phi^3 Re "
                 "[0.95 + 0.61 phi^3/eps^2]}",
     .source = "[TennetiGargSubramaniam11]; [SchillerNaumann35]",
-    .range = "eps 0.5 to 0.9, Re < 300"};
+    .range = "eps 0.5 to 0.9, Re < 300",
+    .cost = "a power of Re and a cube root of phi"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.5, .eps_max = 0.9, .re_max = 300.0, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

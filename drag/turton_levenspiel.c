@@ -14,7 +14,8 @@ const struct about drag_about = {
     .summary = "Turton and Levenspiel's isolated sphere",
     .equation = "Fhat = 1 + 0.173 Re^0.657 + (0.413/24) Re/(1 + 16300 Re^-1.09)",
     .source = "[TurtonLevenspiel86]",
-    .range = "one sphere on its own (eps above 0.99), Re < 2e5"};
+    .range = "one sphere on its own (eps above 0.99), Re < 2e5",
+    .cost = "two powers of Re: a logarithm and two exponentials"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.99, .eps_max = 1.0, .re_max = 2e5, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

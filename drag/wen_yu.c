@@ -15,7 +15,8 @@ const struct about drag_about = {
     .summary = "Wen and Yu's fluidised suspension on Schiller and Naumann's sphere",
     .equation = "Fhat = (C_D Re/24) eps^-3.65, C_D of Schiller and Naumann",
     .source = "[WenYu66]; [SchillerNaumann35]",
-    .range = "eps 0.7 to 1 (fitted above 0.8), Re < 2e5"};
+    .range = "eps 0.7 to 1 (fitted above 0.8), Re < 2e5",
+    .cost = "two powers, of Re and of eps: two logarithms and two exponentials"};
 const struct drag_limits drag_limits = {
     .eps_min = 0.7, .eps_max = 1.0, .re_max = 2e5, .jump = 0.0039, .isolated = 1.0};
 const struct key drag_keys[] = {{0}};

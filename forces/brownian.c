@@ -69,7 +69,9 @@ const struct force force_brownian = {
                   "thermal agitation, from random numbers that depend on grain and step only",
               .equation = "F = sqrt(6 pi mu d k T/dt) N(0,1) per component",
               .source = "[Einstein1905]; [Ermak78]; [Salmon11]",
-              .range = "grains that others do not crowd; Stokes' drag"},
+              .range = "grains that others do not crowd; Stokes' drag",
+              .cost =
+                  "Philox, two logarithms, three roots, sines and cosines of normal numbers"},
     .keys = keys,
     .read = read_keys,
     .act = kick,

@@ -33,7 +33,7 @@ static vec3 lift(const struct force_view *v)
     double lift = ratio;
     if (fitted) {
         const double re = v->rho * v->d * slip / v->mu, re_w = v->rho * v->d * v->d * w / v->mu;
-        lift = 0.45 + (ratio - 0.45) * exp(-0.05684 * pow(re_w, 0.4) * pow(re, 0.3));
+        lift = 0.45 + (ratio - 0.45) * exp(-0.05684 * exp(0.4 * log(re_w) + 0.3 * log(re)));
     }
     const double pi = 3.14159265358979323846;
     return v3_scale(pi / 8.0 * v->rho * v->d * v->d * lift * slip / w, v3_cross(W, v->slip));
@@ -44,7 +44,8 @@ const struct force force_magnus = {
               .summary = "lift on a spinning grain",
               .equation = "F = (pi/8) rho d^2 C_L |u_r| (W x u_r)/|W|, W = curl u/2 - omega",
               .source = "[RubinowKeller61]; [OesterleDinh98]",
-              .range = "Re < 140 (rubinow_keller: < 1); dilute"},
+              .range = "Re < 140 (rubinow_keller: < 1); dilute",
+              .cost = "two logarithms and two exponentials of the fit, two norms"},
     .keys = keys,
     .returned = true,
     .read = read_keys,

@@ -29,7 +29,8 @@ const struct force force_viscous_torque = {
               .summary = "the fluid's torque on a spinning grain, implicit",
               .equation = "T = (rho/2)(d/2)^5 C_R |W| W; pi mu d^3 W at small Re_W",
               .source = "[Lamb32, art. 334]; [Dennis80]",
-              .range = "rho d^2 |W|/mu < 4000"},
+              .range = "rho d^2 |W|/mu < 4000",
+              .cost = "two roots"},
     .keys = keys,
     .spin_rate = rate,
 };

@@ -18,7 +18,8 @@ const struct about porosity_about = {
         "a grain's volume spread as a Gaussian of given width, conservative next to walls",
     .equation = "w = exp(width^2/2 L) applied to the trilinear shares",
     .source = "[SunXiao15]; [AbramowitzStegun64, 9.6.34]",
-    .range = "any cell/d; structure finer than the width is not seen"};
+    .range = "any cell/d; structure finer than the width is not seen",
+    .cost = "8 cells per grain, and three transforms of the field there and back"};
 const struct key porosity_keys[] = {
     {"porosity", "width", KEY_REAL, "m", "auto | (0, inf)", "auto",
      "standard deviation of the Gaussian; auto: 2 diameters of the largest grain"},

@@ -56,6 +56,7 @@ struct about {
     const char *equation; /* as plain text */
     const char *source;   /* key in NOTATION.md, with equation number */
     const char *range;    /* where it holds */
+    const char *cost;     /* why it costs over 1.5 times the cheapest of its slot; or NULL */
 };
 
 /* Reads the file (NULL: only overrides) and the overrides ("section.key=value",

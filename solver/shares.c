@@ -14,7 +14,7 @@
 static const double beyond_all = -2.0; /* radii: a plane that cuts nothing off */
 
 enum {
-    PLANES_MOST = 16, /* per direction, for the tables of pairs */
+    PLANES_MOST = 16, /* intervals per direction, for the table of pairs: BALL_PAIRS */
     PARTS_MOST = PLANES_MOST * PLANES_MOST * PLANES_MOST
 };
 
@@ -127,37 +127,40 @@ static void parts_directly(const struct span s[3], double *G)
                                    span_plane(&s[2], c));
 }
 
-/* Tables of pairs of planes: xy, xz, yz. */
-struct pairs {
-    struct ball_pair xy[PLANES_MOST][PLANES_MOST], xz[PLANES_MOST][PLANES_MOST],
-        yz[PLANES_MOST][PLANES_MOST];
-};
-
-static void pairs_fill(const struct span *s, const struct span *t,
-                       struct ball_pair pair[PLANES_MOST][PLANES_MOST])
+/* Adds the pairs of the planes of two directions, the second one's fastest; returns the first's place. */
+static int pairs_add(const struct span *s, const struct span *t, struct ball_pairs *p)
 {
+    const int first = p->n;
     for (int i = 1; i < s->n; i++)
-        for (int k = 1; k < t->n; k++)
-            pair[i][k] = ball_pair(span_plane(s, i), span_plane(t, k));
+        for (int k = 1; k < t->n; k++) {
+            p->a[p->n] = span_plane(s, i);
+            p->b[p->n++] = span_plane(t, k);
+        }
+    return first;
 }
 
 static void parts_by_pairs(const struct span s[3], double *G)
 {
-    struct pairs p;
-    pairs_fill(&s[0], &s[1], p.xy);
-    pairs_fill(&s[0], &s[2], p.xz);
-    pairs_fill(&s[1], &s[2], p.yz);
+    struct ball_pairs p;
+    p.n = 0;
+    /* of planes i and k from 1 on: pair i stride + k - 1, from there on */
+    const int y = s[1].n - 1, z = s[2].n - 1;
+    const int xy = pairs_add(&s[0], &s[1], &p) - y - 1,
+              xz = pairs_add(&s[0], &s[2], &p) - z - 1;
+    const int yz = pairs_add(&s[1], &s[2], &p) - z - 1;
+    ball_pairs_find(&p);
     for (int c = 0, m = 0; c < s[2].n; c++)
         for (int b = 0; b < s[1].n; b++)
             for (int a = 0; a < s[0].n; a++, m++) {
+                const int ab = xy + a * y + b, ac = xz + a * z + c, bc = yz + b * z + c;
                 if (a && b && c)
-                    G[m] = ball_octant_of(&p.xy[a][b], &p.xz[a][c], &p.yz[b][c]);
+                    G[m] = ball_octant_of(&p, ab, ac, bc);
                 else if (b && c)
-                    G[m] = p.yz[b][c].wedge;
+                    G[m] = p.wedge[bc];
                 else if (a && c)
-                    G[m] = p.xz[a][c].wedge;
+                    G[m] = p.wedge[ac];
                 else if (a && b)
-                    G[m] = p.xy[a][b].wedge;
+                    G[m] = p.wedge[ab];
                 else
                     G[m] = ball_beyond(span_plane(&s[a ? 0 : b ? 1 : 2], a ? a : b ? b : c));
             }
@@ -177,28 +180,40 @@ static void differences(const struct span s[3], double *G)
         G[m] -= G[m + nx * ny];
 }
 
+/* Interior indices of the intervals of a span. */
+static void fold_all(const struct grid *g, const struct domain *d, int axis,
+                     const struct span *s, int *index)
+{
+    for (int i = 0; i < s->n; i++)
+        index[i] = fold(g, d, axis, s->first + i);
+}
+
 /* The parts above 1e-15 (smaller ones are round-off of cells in the brick's corners that the ball
  * does not reach), with their sum made 1; returns how many they are. */
 static int keep(const struct grid *g, const struct domain *d, const struct span s[3],
                 const double *parts, struct share *out)
 {
-    int used = 0;
+    int few[PLANES_MOST + 1], used = 0;
+    int *const x = s[0].n <= PLANES_MOST + 1 ? few : xalloc((size_t)s[0].n, sizeof *x);
     double sum = 0.0;
+    fold_all(g, d, 0, &s[0], x);
     for (int c = 0, m = 0; c < s[2].n; c++) {
         const int k = fold(g, d, 2, s[2].first + c);
         for (int b = 0; b < s[1].n; b++) {
-            const int j = fold(g, d, 1, s[1].first + b);
+            const int row = cell(g, 0, fold(g, d, 1, s[1].first + b), k);
             for (int a = 0; a < s[0].n; a++, m++) {
-                if (!(parts[m] > 1e-15))
-                    continue;
-                out[used++] =
-                    (struct share){cell(g, fold(g, d, 0, s[0].first + a), j, k), parts[m]};
-                sum += parts[m];
+                out[used] = (struct share){row + x[a], parts[m]};
+                const bool some = parts[m] > 1e-15;
+                sum += some ? parts[m] : 0.0;
+                used += some;
             }
         }
     }
+    const double inverse = 1.0 / sum;
     for (int m = 0; m < used; m++)
-        out[m].weight /= sum;
+        out[m].weight *= inverse;
+    if (x != few)
+        xfree(x);
     return used;
 }
 

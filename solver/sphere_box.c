@@ -72,58 +72,97 @@ double ball_octant(double a, double b, double c)
     return (2.0 * pi - corners - faces) / (4.0 * pi);
 }
 
-struct ball_pair ball_pair(double a, double b)
+/* atan2(y, x) for y >= 0, not both 0, without a branch: the ratio of the smaller to the larger is brought
+ * below tan(pi/8) and goes into a rational function [Moshier89, atan], good to 2e-16. */
+static inline double angle(double y, double x)
 {
-    struct ball_pair p = {.a = a, .b = b, .w2 = 1.0 - a * a - b * b};
-    if (p.w2 <= 0.0) {
-        p.wedge = ball_wedge(a, b);
-        return p;
+    const double ax = fabs(x), low = y < ax ? y : ax, high = y < ax ? ax : y;
+    const bool second = low > 0.41421356237309503 * high;
+    const double t = (second ? low - high : low) / (second ? low + high : high), z = t * t;
+    const double p = (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z -
+                       7.500855792314704667340e1) *
+                          z -
+                      1.228866684490136173410e2) *
+                         z -
+                     6.485021904942025371773e1;
+    const double q = ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z +
+                       4.328810604912902668951e2) *
+                          z +
+                      4.853903996359136964868e2) *
+                         z +
+                     1.945506571482613964425e2;
+    const double small = t + t * z * p / q;
+    const double octant = second ? 0.25 * pi + small : small;
+    const double quadrant = y < ax ? octant : 0.5 * pi - octant;
+    return x < 0.0 ? pi - quadrant : quadrant;
+}
+
+static inline double beyond(double a)
+{
+    const double x = a > 1.0 ? 1.0 : a < -1.0 ? -1.0 : a;
+    return 0.25 * (1.0 - x) * (1.0 - x) * (2.0 + x);
+}
+
+void ball_pairs_find(struct ball_pairs *p)
+{
+    const int n = (p->n + BALL_LANES - 1) / BALL_LANES * BALL_LANES;
+    for (int i = p->n; i < n; i++)
+        p->a[i] = p->b[i] = 0.0;
+#pragma omp simd
+    for (int i = 0; i < n; i++) {
+        const double a = p->a[i], b = p->b[i], w2 = 1.0 - a * a - b * b;
+        const bool crosses = w2 > 0.0;
+        const double w = sqrt(crosses ? w2 : 1.0);
+        const double at_a = angle(w, a), at_b = angle(w, b), at_corner = angle(w, a * b);
+        const double crossing = (2.0 * at_corner - a * (3.0 - a * a) * at_b -
+                                 b * (3.0 - b * b) * at_a + 2.0 * a * b * w) /
+                                (4.0 * pi);
+        const double of_a = beyond(a), of_b = beyond(b), both = of_a + of_b - 1.0;
+        const double apart =
+            a < 0.0 ? (b < 0.0 ? (both > 0.0 ? both : 0.0) : of_b) : (b < 0.0 ? of_a : 0.0);
+        p->w2[i] = w2;
+        p->w[i] = w;
+        p->at_a[i] = at_a;
+        p->at_b[i] = at_b;
+        p->at_corner[i] = at_corner;
+        p->wedge[i] = crosses ? crossing : apart;
     }
-    p.w = sqrt(p.w2);
-    p.at_a = atan2(p.w, a);
-    p.at_b = atan2(p.w, b);
-    p.at_corner = atan2(p.w, a * b);
-    p.wedge = (2.0 * p.at_corner - a * (3.0 - a * a) * p.at_b - b * (3.0 - b * b) * p.at_a +
-               2.0 * a * b * p.w) /
-              (4.0 * pi);
-    return p;
 }
 
 /* beyond(|a|, b) or beyond(a, |b|) or both, of a pair: mirrored planes have the rest. */
-static double mirrored(const struct ball_pair *p, bool a, bool b)
+static double mirrored(const struct ball_pairs *p, int i, bool a, bool b)
 {
-    double v = p->wedge;
+    double v = p->wedge[i];
     if (a)
-        v = ball_beyond(p->b) - v;
+        v = beyond(p->b[i]) - v;
     if (b)
-        v = ball_beyond(a ? -p->a : p->a) - v;
+        v = beyond(a ? -p->a[i] : p->a[i]) - v;
     return v;
 }
 
 /* The corner lies outside the ball: what ball_octant does in that case. */
-static double octant_outside(const struct ball_pair *ab, const struct ball_pair *ac,
-                             const struct ball_pair *bc)
+static double octant_outside(const struct ball_pairs *p, int ab, int ac, int bc)
 {
-    const bool a = ab->a < 0.0, b = ab->b < 0.0, c = ac->b < 0.0;
-    double v = c ? mirrored(ab, a, b) : 0.0;
+    const bool a = p->a[ab] < 0.0, b = p->b[ab] < 0.0, c = p->b[ac] < 0.0;
+    double v = c ? mirrored(p, ab, a, b) : 0.0;
     if (b)
-        v = mirrored(ac, a, false) - v;
-    return a ? bc->wedge - v : v;
+        v = mirrored(p, ac, a, false) - v;
+    return a ? p->wedge[bc] - v : v;
 }
 
-double ball_octant_of(const struct ball_pair *ab, const struct ball_pair *ac,
-                      const struct ball_pair *bc)
+double ball_octant_of(const struct ball_pairs *p, int ab, int ac, int bc)
 {
-    const double a = ab->a, b = ab->b, c = ac->b;
-    if (ab->w2 <= c * c)
-        return octant_outside(ab, ac, bc);
-    const double phi_a = ab->at_b + ac->at_b - 0.5 * pi;
-    const double phi_b = ab->at_a + bc->at_b - 0.5 * pi;
-    const double phi_c = ac->at_a + bc->at_a - 0.5 * pi;
-    const double on_a = 0.5 * ((1.0 - a * a) * phi_a - c * (ac->w - b) - b * (ab->w - c));
-    const double on_b = 0.5 * ((1.0 - b * b) * phi_b - c * (bc->w - a) - a * (ab->w - c));
-    const double on_c = 0.5 * ((1.0 - c * c) * phi_c - b * (bc->w - a) - a * (ac->w - b));
-    const double corners = ab->at_corner + ac->at_corner + bc->at_corner - pi;
+    const double a = p->a[ab], b = p->b[ab], c = p->b[ac];
+    if (p->w2[ab] <= c * c)
+        return octant_outside(p, ab, ac, bc);
+    const double w_ab = p->w[ab], w_ac = p->w[ac], w_bc = p->w[bc];
+    const double phi_a = p->at_b[ab] + p->at_b[ac] - 0.5 * pi;
+    const double phi_b = p->at_a[ab] + p->at_b[bc] - 0.5 * pi;
+    const double phi_c = p->at_a[ac] + p->at_a[bc] - 0.5 * pi;
+    const double on_a = 0.5 * ((1.0 - a * a) * phi_a - c * (w_ac - b) - b * (w_ab - c));
+    const double on_b = 0.5 * ((1.0 - b * b) * phi_b - c * (w_bc - a) - a * (w_ab - c));
+    const double on_c = 0.5 * ((1.0 - c * c) * phi_c - b * (w_bc - a) - a * (w_ac - b));
+    const double corners = p->at_corner[ab] + p->at_corner[ac] + p->at_corner[bc] - pi;
     return (corners - a * (phi_a + on_a) - b * (phi_b + on_b) - c * (phi_c + on_c)) /
            (4.0 * pi);
 }

@@ -13,20 +13,25 @@ double ball_beyond(double a);                     /* part with x > a */
 double ball_wedge(double a, double b);            /* part with x > a, y > b */
 double ball_octant(double a, double b, double c); /* part with x > a, y > b, z > c */
 
-/* What the parts beyond two planes have in common, for balls cut by many: found once per pair. */
-struct ball_pair {
-    double a, b;
-    double w2; /* 1 - a^2 - b^2; where > 0 the edge of the planes crosses the ball */
-    double w;  /* and leaves it at this coordinate */
-    double at_a, at_b, at_corner; /* atan2(w, a), atan2(w, b), atan2(w, a b) */
-    double wedge;                 /* ball_wedge(a, b) */
+/* What the parts beyond two planes have in common, for balls cut by many: of all pairs of planes at
+ * once, BALL_LANES at a time. */
+enum { BALL_LANES = 8, BALL_PAIRS = 680 };
+
+struct ball_pairs {
+    int n; /* set with a and b */
+    double a[BALL_PAIRS], b[BALL_PAIRS];
+    double
+        w2[BALL_PAIRS];   /* 1 - a^2 - b^2; where > 0 the edge of the planes crosses the ball */
+    double w[BALL_PAIRS]; /* and leaves it at this coordinate */
+    double at_a[BALL_PAIRS], at_b[BALL_PAIRS],
+        at_corner[BALL_PAIRS]; /* atan2(w, a), (w, b), (w, a b) */
+    double wedge[BALL_PAIRS];  /* ball_wedge(a, b) */
 };
 
-struct ball_pair ball_pair(double a, double b);
+void ball_pairs_find(struct ball_pairs *p);
 
 /* ball_octant(a, b, c) from its three pairs (a, b), (a, c), (b, c). */
-double ball_octant_of(const struct ball_pair *ab, const struct ball_pair *ac,
-                      const struct ball_pair *bc);
+double ball_octant_of(const struct ball_pairs *p, int ab, int ac, int bc);
 
 /* m3; volume that a sphere and the box lo..hi have in common, >= 0. */
 double sphere_box_overlap(vec3 centre, double radius, vec3 lo, vec3 hi);

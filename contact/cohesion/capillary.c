@@ -24,7 +24,8 @@ const struct about cohesion_about = {
     .summary = "liquid bridge: forms at touch, ruptures at its distance",
     .equation = "F = 2 pi R gamma cos(theta) f(H), R = 2 r_i r_j/(r_i + r_j)",
     .source = "[Willett00, eqs 11, 12], [Rabinovich05, eq. 19], [Lian93]",
-    .range = "slow grains (no viscous pull), V below 0.01 R^3"};
+    .range = "slow grains (no viscous pull), V below 0.01 R^3",
+    .cost = "memory of the bridge, a root and a division"};
 
 const struct key cohesion_keys[] = {
     {"material", "surface_tension", KEY_REAL, "N m-1", "[0, inf)", NULL,

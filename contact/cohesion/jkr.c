@@ -32,7 +32,8 @@ const struct about cohesion_about = {
     .summary = "adhesive elastic spheres: pull-off force 3/2 pi w R*, necking",
     .equation = "F = 4 E* a^3/(3 R*) - sqrt(8 pi w E*) a^1.5, d = a^2/R* - sqrt(2 pi a w/E*)",
     .source = "[JKR71]",
-    .range = "with a Hertz law; soft, large, sticky: Tabor's number above 5"};
+    .range = "with a Hertz law; soft, large, sticky: Tabor's number above 5",
+    .cost = "the contact radius is a root of a quartic: cube root and square roots"};
 
 const struct key cohesion_keys[] = {
     ELASTIC_KEYS,

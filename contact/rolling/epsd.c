@@ -17,7 +17,8 @@ const struct about rolling_about = {
     .summary = "elastic-plastic spring and dashpot against rolling; comes to rest",
     .equation = "dM_k = -k_r w dt, |M_k| <= mu_r R* F_n; M_d = -2 eta_r sqrt(I_r k_r) w",
     .source = "[Ai11, model C]",
-    .range = "any"};
+    .range = "any",
+    .cost = "a spring with memory, its turn, its limit and a root for its dashpot"};
 
 const struct key rolling_keys[] = {
     {"material", "rolling_friction", KEY_REAL, "1", "[0, inf)", NULL,

@@ -19,7 +19,8 @@ const struct about rolling_about = {
     .equation =
         "|M_r| <= zeta_c F_n R/4, k_r = k_n R^2/4; |M_t| <= 0.65 mu F_n R, k_t = k_s R^2/2",
     .source = "[Jiang15]",
-    .range = "any; beta below 1"};
+    .range = "any; beta below 1",
+    .cost = "two springs with memory, rolling and twisting, their limits and dashpots"};
 
 const struct key rolling_keys[] = {
     {"material", "shape_parameter", KEY_REAL, "1", "[0, inf)", NULL,

@@ -17,7 +17,8 @@ const struct about rolling_about = {
     .equation =
         "dM_r = -k_r w_r dt, |M_r| <= mu_r F_n R*; dM_t = -k_t w_t dt, |M_t| <= mu_o F_n R*",
     .source = "[Kondic99]",
-    .range = "any"};
+    .range = "any",
+    .cost = "two springs with memory, rolling and twisting, their limits and dashpots"};
 
 const struct key rolling_keys[] = {
     {"material", "rolling_friction", KEY_REAL, "1", "[0, inf)", NULL,
