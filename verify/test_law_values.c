@@ -182,6 +182,14 @@ static void check_rolling(void)
     for (int k = 0; k < 20000; k++)
         roll(&l, wi, wj, fn, kn);
     check_rel((double)t.mx[0], -0.0713 * r_eff * fn, 1e-12, "epsd: at its limit, N m");
+    l = get("rolling", "epsd",
+            (const char *const[]){"material a.rolling_friction=0.0713", "rolling.damping=0.27",
+                                  "rolling.form=disc", NULL});
+    roll(&l, wi, wj, fn, kn);
+    check_rel((double)t.mx[0],
+              -kr * 3.0 / 2.25 * 2.13 * dt -
+                  2.0 * 0.27 * sqrt(inertia * kr * 3.0 / 2.25) * 2.13,
+              1e-12, "epsd, discs: spring and dashpot, N m");
     l = get("rolling", "matter",
             (const char *const[]){"material a.rolling_friction=0.0713",
                                   "material a.torsion_friction=0.0291",
@@ -212,6 +220,16 @@ static void check_rolling(void)
     check_rel((double)t.mx[0], -0.25 * 1.9 * fn * radius, 1e-12, "jiang: rolling limit, N m");
     check_rel(v3_dot(law_moment(&t, 0), normal), -0.65 * 0.47 * fn * radius, 1e-12,
               "jiang: twisting limit, N m");
+    l = get("rolling", "jiang",
+            (const char *const[]){"material a.shape_parameter=0.213", "rolling.form=disc",
+                                  "material a.friction=0.47", "rolling.damping=0", NULL});
+    roll(&l, turning, wj, fn, kn);
+    check_rel((double)t.mx[0], -kn * radius * radius / 12.0 * 2.13 * dt, 1e-12,
+              "jiang, discs: rolling spring over the width, N m");
+    check_abs(v3_dot(law_moment(&t, 0), normal), 0.0, 1e-25, "jiang, discs: no twist, N m");
+    for (int k = 0; k < 20000; k++)
+        roll(&l, turning, wj, fn, kn);
+    check_rel((double)t.mx[0], -fn * radius / 6.0, 1e-12, "jiang, discs: rolling limit, N m");
 }
 
 /* Rows "x,y,..." of a file of verify/reference; comments and the line of names are skipped. */
@@ -293,6 +311,60 @@ static void check_jkr(void)
     check(energy < 1e-9, "jkr: energy is the integral of the force (%.2g off)", energy);
 }
 
+/* The pull of a pair r_j = 19 um at a gap, of gamma (mN/m), V (1e-19 m3), theta = 10 deg. */
+static double bridge(const char *form, double r_i, double gamma, double volume, double gap)
+{
+    char *const key[3] = {xprintf("material a.surface_tension=%g mN/m", gamma),
+                          xprintf("material a.bridge_volume=%ge-19 m3", volume),
+                          xprintf("cohesion.form=%s", form)};
+    const struct law l = get(
+        "cohesion", "capillary",
+        (const char *const[]){key[0], key[1], key[2], "material a.contact_angle=10 deg", NULL});
+    struct law_pair p = pair(-gap, v3(0, 0, 0));
+    p.r_i = r_i;
+    p.r_j = 19e-6;
+    for (int c = 0; c < TOUCH_LANES; c++)
+        h[0][c] = 1.0;
+    put(p);
+    l.forces(&t, h);
+    for (int i = 0; i < 3; i++)
+        xfree(key[i]);
+    return -v3_dot(law_force(&t, 0), normal);
+}
+
+/* What YADE's own check prints (scripts/checks-and-tests, capillary models) for three pairs that have been
+ * drawn apart alike: the gap from Willett's force must give Rabinovich's with both terms. */
+static void check_yade_bridges(void)
+{
+    double low = 0.0, high = 1e-6;
+    for (int k = 0; k < 60; k++) {
+        const double gap = 0.5 * (low + high);
+        *(bridge("willett", 32.5e-6, 24.0, 12.0, gap) > 6.78192074e-7 ? &low : &high) = gap;
+    }
+    check_abs(low, 2.5e-7, 2.5e-9, "capillary: the gap of YADE's check, m (250 steps of 1 nm)");
+    /* 5e-4: each pair is slowed by its own pull, so the gaps are not quite alike */
+    check_rel(bridge("rabinovich_ring", 27.5e-6, 28.0, 36.0, low), 1.58617796928e-6, 5e-4,
+              "capillary, rabinovich_ring: YADE's force at it, N");
+    const struct law l = get("cohesion", "capillary",
+                             (const char *const[]){"material a.surface_tension=0.0719 N/m",
+                                                   "material a.contact_angle=0.37 rad",
+                                                   "material a.bridge_volume=1.9e-11 m3",
+                                                   "cohesion.form=rabinovich_ring", NULL});
+    double energy[2];
+    for (int k = 0; k < 2; k++) {
+        for (int c = 0; c < TOUCH_LANES; c++)
+            h[0][c] = 1.0;
+        put(pair(-3.77e-5 - (k ? 1e-8 : -1e-8), v3(0, 0, 0)));
+        memset(t.energy, 0, sizeof t.energy);
+        l.energy(&t, h);
+        energy[k] = t.energy[0];
+    }
+    put(pair(-3.77e-5, v3(0, 0, 0)));
+    l.forces(&t, h);
+    check_rel((energy[1] - energy[0]) / 2e-8, -v3_dot(law_force(&t, 0), normal), 1e-6,
+              "capillary, rabinovich_ring: its energy rises by the pull, N");
+}
+
 static void check_capillary(void)
 {
     static double row[64][3];
@@ -315,6 +387,7 @@ static void check_capillary(void)
     }
     check(worst < 1e-11, "capillary, rabinovich: the table within %.2g N, at most 1e-11",
           worst);
+    check_yade_bridges();
     l = get("cohesion", "capillary",
             (const char *const[]){"material a.surface_tension=0.0719 N/m",
                                   "material a.contact_angle=0.37 rad",

@@ -36,6 +36,7 @@ int main(void)
         xfree(material);
     }
     check_slopes(material_of, "");
+    check_incline(0.2, "shape_parameter = 0.6\n", "[rolling]\nform = disc\n"); /* beta/3 */
     char *const material = material_of(0.3);
     const struct stop s = roll_out(0.2, 0.4, material, "");
     check_rel(s.distance, 0.2 * 0.2 / (2.0 * 2.10214286), 1e-2, "rolls to rest: distance, m");

@@ -9,6 +9,9 @@
  * turns as one body: where the couple would drive the grains instead of braking them (only
  * grains of unlike radii), it is left out.
  *
+ * Published for discs in a plane (2-D), where w has one component; for spheres (3-D) w is a vector in the
+ * plane of contact. The law is the same in both; only the inertia of the grain differs.
+ *
  * The couple does not fall with the spin: a grain at rest is kicked to and fro by mu_r R* F_n dt/I
  * per step, and creeps on a slope. For what comes to rest take epsd or jiang. */
 #include "rolling.h"

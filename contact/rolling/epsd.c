@@ -2,7 +2,7 @@
  *
  *   M = M_k + M_d,  dM_k = -k_r w dt,  |M_k| <= M_m = mu_r R* F_n            [Ai11, model C]
  *   M_d = -C_r w where |M_k| < M_m, -f C_r w at the limit,  C_r = 2 eta_r sqrt(I_r k_r)
- *   k_r = q k_n mu_r^2 R*^2, q = 2.25 for spheres, 3 for discs
+ *   k_r = q k_n mu_r^2 R*^2, q = 2.25 for spheres (3-D), 3 for discs (2-D)
  * with the part of the relative spin w in the plane of contact (twisting is not resisted), k_n the
  * secant normal stiffness and I_r the reduced inertia about the contact point. The review's row
  * compares M_k with itself, where M_m is meant, and lacks k_r and the branch f C_r. Where k_r
@@ -25,8 +25,10 @@ const struct key rolling_keys[] = {
      "coefficient of rolling friction, the tangent of the angle at which a sphere rolls"},
     {"pair", "rolling_friction", KEY_REAL, "1", "mixed | [0, inf)", "mixed",
      "rolling friction of a contact"},
-    {"rolling", "stiffness_factor", KEY_REAL, "1", "(0, inf)", "2.25",
-     "q in k_r = q k_n mu_r^2 R*^2: 2.25 for spheres, 3 for discs"},
+    {"rolling", "form", KEY_CHOICE, "", "sphere | disc", "sphere",
+     "3-D or 2-D: what stiffness_factor = auto is"},
+    {"rolling", "stiffness_factor", KEY_REAL, "1", "auto | (0, inf)", "auto",
+     "q in k_r = q k_n mu_r^2 R*^2; auto: 2.25 for spheres, 3 for discs"},
     {"rolling", "damping", KEY_REAL, "1", "[0, inf)", "0.3", "eta_r, damping ratio"},
     {"rolling", "plastic_damping", KEY_REAL, "1", "[0, 1]", "0",
      "f, part of the damping that acts at the limit"},
@@ -45,7 +47,10 @@ void rolling_init(struct scene *s, const struct materials *m)
     if (!materials_fit(s, m))
         return;
     materials_pair_values(s, m, "rolling_friction", MIX_GEOMETRIC, value);
-    factor = (real)scene_real(s, "rolling", NULL, "stiffness_factor");
+    const bool disc = scene_choice(s, "rolling", NULL, "form") == 1;
+    factor = scene_word(s, "rolling", NULL, "stiffness_factor", "auto")
+                 ? (real)(disc ? 3.0 : 2.25)
+                 : (real)scene_real(s, "rolling", NULL, "stiffness_factor");
     eta = (real)scene_real(s, "rolling", NULL, "damping");
     plastic = (real)scene_real(s, "rolling", NULL, "plastic_damping");
     for (int p = 0; p < m->n * m->n; p++)

@@ -3,6 +3,9 @@
  *
  *   dM_r = -k_r w_r dt, |M_r| <= mu_r F_n R*      w_r: relative spin in the plane of contact
  *   dM_t = -k_t w_t dt, |M_t| <= mu_o F_n R*      w_t: about the normal        [Kondic99]
+ * Published for spheres (3-D). In a plane (2-D) the spins are along the one axis, w_t is nought, and the
+ * first line is the whole law.
+ *
  * The review prints M_r and theta_r in the line of the torsion, where M_t and theta_t are meant,
  * and the limits without the sign of what they limit. Published without dashpots: a grain held by
  * the springs then swings for ever; rolling.damping brings it to rest. */

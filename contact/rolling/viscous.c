@@ -5,7 +5,8 @@
  * (the review does not say so). The rolling velocity does not tell rolling from a pair that turns
  * as one body: where the couple would drive the grains instead of braking them (only grains of
  * unlike radii), it is left out. The couple is at most what stops the relative spin within a
- * step. A rolling grain slows down as exp(-t/tau) and never comes to rest. */
+ * step. Published for discs in a plane (2-D), where w has one component; for spheres (3-D) w is a vector in
+ * the plane of contact, and the law is the same. A rolling grain slows down as exp(-t/tau) and never comes to rest. */
 #include "rolling.h"
 
 #include "../pairs.h"
