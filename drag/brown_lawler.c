@@ -1,4 +1,4 @@
-/* drag/brown_lawler.c - Brown and Lawler's sphere [BrownLawler03].
+/* drag/brown_lawler.c - Brown and Lawler's sphere [BrownLawler03, eq. 19].
  *
  *   C_D  = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re)
  *   Fhat = C_D Re/24
@@ -13,7 +13,7 @@ const struct about drag_about = {.name = "brown_lawler",
                                  .summary = "Brown and Lawler's isolated sphere",
                                  .equation =
                                      "Fhat = 1 + 0.15 Re^0.681 + (0.407/24) Re^2/(Re + 8710)",
-                                 .source = "[BrownLawler03]",
+                                 .source = "[BrownLawler03, eq. 19]",
                                  .range = "one sphere on its own (eps above 0.99), Re < 2e5",
                                  .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {

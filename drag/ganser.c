@@ -1,4 +1,4 @@
-/* drag/ganser.c - Ganser's grain of any shape, by its two limits [Ganser93].
+/* drag/ganser.c - Ganser's grain of any shape, by its two limits [Ganser93, eq. 18].
  *
  *   C_D  = K2 {24/X (1 + 0.1118 X^0.6567) + 0.4305/(1 + 3305/X)},   X = Re K1 K2
  *   K1   = 1/[d_n/(3 d) + (2/3) Phi^-1/2]          the shape factor of Stokes' regime
@@ -21,7 +21,7 @@ const struct about drag_about = {
     .name = "ganser",
     .summary = "Ganser's isolated grain of any shape",
     .equation = "Fhat = [1 + 0.1118 X^0.6567 + (0.4305/24) X^2/(X + 3305)]/K1, X = Re K1 K2",
-    .source = "[Ganser93]",
+    .source = "[Ganser93, eq. 18]",
     .range = "one grain on its own (eps above 0.99), Re K1 K2 < 1e5",
     .cost = "a power of Re: a logarithm and an exponential"};
 const struct drag_limits drag_limits = {.eps_min = 0.99,

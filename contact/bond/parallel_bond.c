@@ -22,7 +22,7 @@ const struct about bond_about = {
     .summary = "cement that bears force and moment, with tensile and shear strength",
     .equation =
         "F = k A u, M = k I theta; sigma = -F_n/A + |M_s| R/I, tau = |F_s|/A + |M_n| R/J",
-    .source = "[PotyondyCundall04, eqs 9-15]",
+    .source = "[PotyondyCundall04]",
     .range = "small strains of the cement"};
 
 const struct key bond_keys[] = {
