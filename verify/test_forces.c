@@ -115,6 +115,21 @@ static void test_saffman(const struct force *f)
     v.slip = v3(0.31, 0.0, 0.0);
     const double re2 = v.rho * v.d * 0.31 / v.mu, b2 = 0.5 * v.d * shear / 0.31;
     check_rel(f->act(&v).y, want / U * 0.31 * 0.0524 * sqrt(b2 * re2), 1e-13, "Mei, Re = 87");
+    /* asymptotic theory, small Re, strong shear: J = 2.255 - 0.6463/e^2, e^2 = 2 b/Re, over Saffman's
+     * 2.255 (6.46 = 9/pi 2.255) [McLaughlin91] */
+    check_rel(4.0 * 1.615, 9.0 / PI * 2.255, 1e-4, "Saffman's coefficient is 9/pi J");
+    static const double point[][2] = {{0.02, 0.4}, {0.05, 0.4}, {0.1, 0.4}, {0.05, 0.2}};
+    for (int k = 0; k < 4; k++) {
+        const double re_k = point[k][0], b_k = point[k][1];
+        v.slip.x = re_k * v.mu / (v.rho * v.d);
+        v.curl.z = -2.0 * b_k * v.slip.x / v.d;
+        const double limit_k = 6.46 * v.mu * a * a * v.slip.x * sqrt(-v.curl.z * v.rho / v.mu);
+        char *const what = xprintf("Mei, Re = %g, b = %g, against McLaughlin's J", re_k, b_k);
+        check_rel(f->act(&v).y / limit_k, 1.0 - 0.6463 / 2.255 * re_k / (2.0 * b_k), 0.04,
+                  what);
+        xfree(what);
+    }
+    v.curl.z = -shear;
     double jump[2];
     for (int k = 0; k < 2; k++) {
         v.slip.x = 40.0 * (k ? 1.0 + 1e-12 : 1.0 - 1e-12) * v.mu / (v.rho * v.d);
