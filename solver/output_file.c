@@ -7,6 +7,7 @@
 #include <netcdf.h>
 #include <string.h>
 #include <unistd.h>
+#include "output_walls.h"
 #include "provenance_info.h"
 
 /* HDF5 cleans up at exit, and crashes there after a write that failed (1.10.8, a full disk):
@@ -254,6 +255,7 @@ void output_file_open(struct output_file *f, const struct sim *s, const char *na
     if (s->fluid.exists)
         define_axes(f, s);
     define_fields(f, s);
+    output_walls_define(f, s);
 }
 
 void output_file_begin(struct output_file *f, const struct sim *s)
@@ -265,6 +267,7 @@ void output_file_begin(struct output_file *f, const struct sim *s)
         write_grains(f, s);
     if (s->fluid.exists)
         write_axes(f, s);
+    output_walls_begin(f, s);
     output_check(f, nc_sync(f->nc));
 }
 
@@ -320,6 +323,7 @@ void output_file_record(struct output_file *f, const struct sim *s)
         xfree(x);
     }
     xfree(order);
+    output_walls_record(f, s);
     f->n_time++;
     output_check(f, nc_sync(f->nc));
 }

@@ -29,6 +29,7 @@ struct output_file {
     size_t n_time, n_sample;
     bool varies;   /* the number of grains: each record has its own sizes, species and ids */
     size_t *count; /* grains per record, where it varies */
+    int wall_triangles;
 };
 
 /* Ends the run (EXIT_WRITE) with path and reason where a netCDF call has failed. */

@@ -1,8 +1,8 @@
 /* picture_bed.c - bed.png: the grains from the side, to scale, at the first and the last
  * output, and beside them the porosity over height (the mean of each layer of cells) on the
  * same axis of height. The viewer looks along y; the nearest grains are drawn last. Colour is
- * speed, or the species where all is at rest. */
-#include "picture.h"
+ * speed, or the species where all is at rest. Walls as of picture_walls.h. */
+#include "picture_walls.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -20,6 +20,7 @@ struct bed {
     double *pos[2], *vel[2]; /* n x 3 */
     double fastest; /* m/s, the 99th percentile: a few outliers do not rule the scale */
     bool profile;
+    struct picture_walls walls[2];
     int x0, z0;     /* pixels: where the panels begin */
     int across, up; /* pixels: size of a panel */
 };
@@ -62,6 +63,11 @@ static void choose_range(struct bed *b, const int periodic[3])
     b->high[0] = b->size[0] + edge;
     b->low[1] = periodic[2] ? -widest : 0.0;
     b->high[1] = b->size[2] - b->low[1];
+    for (int k = 0; k < b->panels; k++) {
+        double low, high;
+        if (picture_walls_range(&b->walls[k], b->size[2], &low, &high))
+            top = fmax(top, fmin(high / 1.12, b->size[2]));
+    }
     if (b->n[0] > 1)
         b->high[1] = fmin(b->high[1], 1.15 * top);
 }
@@ -130,6 +136,8 @@ static bool read_bed(const struct run_file *r, struct bed *b)
         if (good)
             b->fastest = fmax(b->fastest, percentile_99(b->vel[k], b->n[k]));
     }
+    for (int k = 0; k < b->panels && good; k++)
+        b->walls[k] = picture_walls_read(r, b->shown[k]);
     if (!good)
         return false;
     b->profile = run_variable(r, "fluid_fraction") >= 0 && run_length(r, "z") > 1;
@@ -194,6 +202,14 @@ static void set_margins(const struct picture *p, const struct bed *b, int from, 
             (double)BOTTOM / p->height, (double)(BOTTOM + b->up) / p->height);
 }
 
+/* Between ticks of a short scale: 1, 2 or 5 times a power of ten, four or five of them. */
+static double round_step(double most)
+{
+    const double power = pow(10.0, floor(log10(0.3 * most)));
+    const double part = 0.3 * most / power;
+    return power * (part >= 5.0 ? 5.0 : part >= 2.0 ? 2.0 : 1.0);
+}
+
 /* What the colours mean: a scale of speed, or the names of the species; below the first panel.
  */
 static void set_colours(const struct run_file *r, const struct picture *p, const struct bed *b)
@@ -203,11 +219,11 @@ static void set_colours(const struct run_file *r, const struct picture *p, const
         fprintf(
             to,
             "set palette defined (0 '#e2e9f0', 0.3 '#9cc3e0', 0.65 '#4288c4', 1 '#0c3a78')\n"
-            "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics scale 0.4\n"
+            "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics %g scale 0.4\n"
             "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
             "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
-            1e3 * b->fastest, (double)LEFT / p->width, 62.0 / p->height, 260.0 / p->width,
-            14.0 / p->height,
+            1e3 * b->fastest, round_step(1e3 * b->fastest), (double)LEFT / p->width,
+            62.0 / p->height, 260.0 / p->width, 14.0 / p->height,
             b->n[b->panels - 1] >= 100 ? " (the fastest 1 % lie above the scale)" : "",
             (LEFT + 275.0) / p->width, 69.0 / p->height);
         return;
@@ -237,13 +253,20 @@ static void draw_grains(const struct picture *p, const struct bed *b, int k)
 {
     FILE *const to = p->gnuplot;
     const double half = b->fastest > 0.0 ? 0.0 : 0.5; /* middle of a species' colour */
+    char name[16];
+    snprintf(name, sizeof name, "w%d", k);
     send_grains(to, b, k);
+    if (b->walls[k].n > 0)
+        picture_walls_send(to, name, &b->walls[k], PICTURE_CUT * b->size[1]);
     set_margins(p, b, b->x0 + k * panel_step(b), b->across);
-    fprintf(to,
-            "set title 't = %.4g s' font ',14'\nset xrange [%.8g:%.8g]\n"
-            "plot $g%d using 1:2:3:($4+%g) with circles lc palette lw 0.4\n"
-            "unset label\nunset colorbox\nset ylabel ''\n",
-            b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0], k, half);
+    fprintf(to, "set title 't = %.4g s' font ',14'\nset xrange [%.8g:%.8g]\nplot ",
+            b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0]);
+    if (b->walls[k].n > 0)
+        picture_walls_behind(to, name);
+    fprintf(to, "$g%d using 1:2:3:($4+%g) with circles lc palette lw 0.4", k, half);
+    if (b->walls[k].n > 0)
+        picture_walls_cut(to, name);
+    fprintf(to, "\nunset label\nunset colorbox\nset ylabel ''\n");
 }
 
 static void draw_profile(const struct run_file *r, const struct picture *p, const struct bed *b)
@@ -298,6 +321,8 @@ void picture_bed(const struct run_file *r)
     struct bed b = {0};
     if (read_bed(r, &b))
         draw(r, &b);
+    picture_walls_free(&b.walls[0]);
+    picture_walls_free(&b.walls[1]);
     void *const all[] = {b.radius[0], b.radius[1], b.species[0], b.species[1], b.time,
                          b.pos[0],    b.pos[1],    b.vel[0],     b.vel[1]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)

@@ -2,7 +2,7 @@
  * that they join, as wide and as dark as their normal force is large over the mean; drawn over the
  * outlines of the grains. The viewer looks along y; of a thick bed only a slice about its middle is
  * shown, three grains thick. Needs output.contacts = on. */
-#include "picture.h"
+#include "picture_walls.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -149,16 +149,20 @@ static void draw(const struct run_file *r, struct chains *c)
             1e3 * c->high[0], 1e3 * c->low[1], 1e3 * c->high[1], (double)LEFT / p.width,
             42.0 / p.height, 220.0 / p.width, 12.0 / p.height, (LEFT + 235.0) / p.width,
             48.0 / p.height);
-    const char *between =
-        "plot $g using 1:2:3 with circles fs solid 0.12 noborder lc '#8899aa'";
-    fprintf(to, "%s", between);
+    struct picture_walls walls = picture_walls_read(r, run_length(r, "time") - 1);
+    if (walls.n > 0)
+        picture_walls_send(to, "w", &walls, PICTURE_CUT * c->size[1]);
+    fprintf(to, "plot $g using 1:2:3 with circles fs solid 0.12 noborder lc '#8899aa'");
     for (int w = 0; w < 6; w++) /* classes of width, the widest last */
         fprintf(
             to,
             ", $f using 1:2:(int(1.5*sqrt($5))==%d%s ? $3 : 1/0):4:5 with vectors nohead lw "
             "%g lc palette",
             w, w == 5 ? "||$5>11" : "", 0.8 + 1.5 * w);
+    if (walls.n > 0)
+        picture_walls_cut(to, "w");
     fprintf(to, "\n");
+    picture_walls_free(&walls);
     picture_close(&p);
     xfree(scene);
     xfree(head);

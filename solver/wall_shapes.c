@@ -88,6 +88,45 @@ double wall_flat_sweep(const void *shape, vec3 point, vec3 axis)
     return fabs(v3_dot(axis, p->normal)) > 1.0 - 1e-12 ? 0.0 : (double)INFINITY;
 }
 
+/* Cuts a polygon with the half-space where `sign` (x_a - at) >= 0; returns its corners. */
+static int cut(vec3 *p, int n, int a, double at, double sign)
+{
+    vec3 out[12];
+    int m = 0;
+    for (int k = 0; k < n; k++) {
+        const vec3 u = p[k], v = p[(k + 1) % n];
+        const double x = sign * ((a == 0 ? u.x : a == 1 ? u.y : u.z) - at);
+        const double y = sign * ((a == 0 ? v.x : a == 1 ? v.y : v.z) - at);
+        if (x >= 0.0)
+            out[m++] = u;
+        if ((x < 0.0) != (y < 0.0))
+            out[m++] = v3_axpy(u, x / (x - y), v3_sub(v, u));
+    }
+    for (int k = 0; k < m; k++)
+        p[k] = out[k];
+    return m;
+}
+
+/* The part of the plane that lies in the box of the picture. */
+void wall_flat_draw(const void *shape, struct wall_canvas *c)
+{
+    const struct wall_flat *const f = shape;
+    const vec3 middle = v3_scale(0.5, v3_add(c->low, c->high));
+    const double wide = 2.0 * v3_norm(v3_sub(c->high, c->low));
+    const vec3 foot = v3_axpy(middle, -height(f, middle), f->normal);
+    const vec3 e = v3_scale(wide, wall_across(f->normal)), g = v3_cross(f->normal, e);
+    vec3 p[12] = {v3_add(foot, e), v3_add(foot, g), v3_sub(foot, e), v3_sub(foot, g)};
+    int n = 4;
+    const double low[3] = {c->low.x, c->low.y, c->low.z};
+    const double high[3] = {c->high.x, c->high.y, c->high.z};
+    for (int a = 0; a < 3; a++) {
+        n = cut(p, n, a, low[a], 1.0);
+        n = cut(p, n, a, high[a], -1.0);
+    }
+    for (int k = 1; k + 1 < n; k++)
+        c->triangle(c, p[0], p[k], p[k + 1]);
+}
+
 const struct wall_kind wall_side = {.name = "side",
                                     .summary = "a side of the box",
                                     .free = xfree,
@@ -140,7 +179,7 @@ struct wall_view wall_strip_view(const struct wall_strip *s, vec3 x)
     return view;
 }
 
-enum { AROUND = 48 };
+enum { AROUND = 96 };
 
 static vec3 ring(const struct wall_strip *s, double h, double r, int k)
 {
@@ -281,6 +320,20 @@ double wall_tube_sweep(const void *shape, vec3 point, vec3 axis)
 void wall_tube_draw(const void *shape, struct wall_canvas *c)
 {
     const struct tube *const t = shape;
+    if (t->endless) { /* as far as the box of the picture goes along the axis */
+        struct wall_strip s = t->strip[0];
+        s.h0 = (double)INFINITY;
+        s.h1 = -(double)INFINITY;
+        for (int corner = 0; corner < 8; corner++) {
+            const vec3 x =
+                v3(corner & 1 ? c->high.x : c->low.x, corner & 2 ? c->high.y : c->low.y,
+                   corner & 4 ? c->high.z : c->low.z);
+            const double h = v3_dot(v3_sub(x, s.foot), s.axis);
+            s.h0 = fmin(s.h0, h);
+            s.h1 = fmax(s.h1, h);
+        }
+        wall_strip_draw(&s, c);
+    }
     for (int k = 0; k < t->n && !t->endless; k++)
         wall_strip_draw(&t->strip[k], c);
 }

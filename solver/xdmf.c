@@ -1,11 +1,12 @@
-/* xdmf.c - run.xmf: grains as points, cell fields on a uniform mesh, one collection in time
- * each. */
+/* xdmf.c - run.xmf: grains as points, cell fields on a uniform mesh, walls as triangles, one
+ * collection in time each. */
 #include "xdmf.h"
 
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include "output_file.h"
+#include "wall_draw.h"
 
 /* Slab t of variable `name` with dimensions (time, dims...), of which the first in the file is
  * `most`. */
@@ -86,6 +87,40 @@ static void cells(FILE *o, const struct sim *s, size_t t, size_t n_time, double 
     fprintf(o, "</Grid>\n");
 }
 
+/* The walls at output t. */
+static void surfaces(FILE *o, const struct sim *s, size_t t, size_t n_time, double time)
+{
+    struct wall_drawing d = walls_draw(s);
+    const int dims[2] = {3 * d.n, 3};
+    fprintf(o,
+            "<Grid Name=\"walls\"><Time Value=\"%.17g\"/>\n"
+            "<Topology TopologyType=\"Triangle\" NumberOfElements=\"%d\">"
+            "<DataItem Dimensions=\"%d 3\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
+            "run.nc:/wall_corners</DataItem></Topology>\n<Geometry GeometryType=\"XYZ\">\n",
+            time, d.n, d.n);
+    if (s->walls.moving)
+        item(o, "wall_position", t, n_time, 2, dims, dims[0]);
+    else
+        fprintf(o,
+                "<DataItem Dimensions=\"%d 3\" NumberType=\"Float\" Precision=\"8\" "
+                "Format=\"HDF\">run.nc:/wall_position</DataItem>",
+                dims[0]);
+    fprintf(o,
+            "</Geometry>\n<Attribute Name=\"wall\" Center=\"Cell\"><DataItem "
+            "Dimensions=\"%d\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
+            "run.nc:/wall_of_triangle</DataItem></Attribute>\n</Grid>\n",
+            d.n);
+    wall_drawing_free(&d);
+}
+
+static int count_triangles(const struct sim *s)
+{
+    struct wall_drawing d = walls_draw(s);
+    const int n = d.n;
+    wall_drawing_free(&d);
+    return n;
+}
+
 void xdmf_write(const struct sim *s, const double *times, size_t n_time, const size_t *count)
 {
     int most = s->grains.n;
@@ -94,15 +129,19 @@ void xdmf_write(const struct sim *s, const double *times, size_t n_time, const s
     char *const path = xprintf("%s/run.xmf", s->run.directory);
     FILE *const o = output_text_open(path);
     fprintf(o, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n");
-    for (int what = 0; what < 2; what++) {
-        if (what == 0 ? most == 0 : !s->fluid.exists)
+    static const char *const name[3] = {"grains", "fluid", "walls"};
+    const bool there[3] = {most > 0, s->fluid.exists, count_triangles(s) > 0};
+    for (int what = 0; what < 3; what++) {
+        if (!there[what])
             continue;
         fprintf(o, "<Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-                what == 0 ? "grains" : "fluid");
+                name[what]);
         for (size_t t = 0; t < n_time; t++) {
             const int n = count ? (int)count[t] : s->grains.n;
             if (what == 1)
                 cells(o, s, t, n_time, times[t]);
+            else if (what == 2)
+                surfaces(o, s, t, n_time, times[t]);
             else if (n > 0)
                 grains(o, s, t, n_time, times[t], n, most, count != NULL);
         }

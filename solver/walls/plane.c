@@ -27,4 +27,5 @@ const struct wall_kind wall_plane = {.name = "plane",
                                      .near = wall_flat_near,
                                      .behind = wall_flat_behind,
                                      .bounds = wall_flat_bounds,
-                                     .sweep = wall_flat_sweep};
+                                     .sweep = wall_flat_sweep,
+                                     .draw = wall_flat_draw};

@@ -34,9 +34,10 @@ struct wall_view {
     enum wall_part part; /* on which the nearest point lies */
 };
 
-/* Takes the triangles of a picture, m. */
+/* Takes the triangles of a picture, m; surfaces without end are to end at low and high. */
 struct wall_canvas {
     void (*triangle)(struct wall_canvas *c, vec3 a, vec3 b, vec3 p);
+    vec3 low, high;
 };
 
 struct wall_kind {
@@ -82,6 +83,7 @@ void wall_flat_near(const void *flat, vec3 x, double reach, struct found *out);
 bool wall_flat_behind(const void *flat, vec3 x);
 void wall_flat_bounds(const void *flat, vec3 *low, vec3 *high);
 double wall_flat_sweep(const void *flat, vec3 point, vec3 axis);
+void wall_flat_draw(const void *flat, struct wall_canvas *c);
 
 /* Nearest point of the rectangle origin + u e1 + v e2, 0 <= u, v <= 1 (e1, e2 at right angles). */
 struct wall_view wall_rectangle_view(vec3 origin, vec3 e1, vec3 e2, vec3 x);
