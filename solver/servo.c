@@ -1,7 +1,12 @@
 /* servo.c - a wall that moves until the grains bear the force or stress that is asked for:
- *   travel' = speed_max max(-1, min(1, gain (target - borne) / largest target))
- * With gain 1 it moves at its highest speed towards grains that bear nothing. A wall on grains of
- * stiffness k rings unless gain speed_max k dt is well below the target. */
+ *   travel' = speed_max max(-1, min(1, e + I)),  e = gain (target - borne) / largest target
+ *   I' = e / integral_time
+ * the proportional-integral controller in the form of [AstromHagglund95, ch. 3]: e alone would
+ * leave an error wherever the wall must keep moving, as on a sample that dilates. I rests while the
+ * wall moves at its highest speed and while more than half of the target is missing, so that nothing
+ * winds up on the way to the grains. With gain 1 it moves at its highest speed towards grains that
+ * bear nothing. A wall on grains of stiffness k rings unless gain speed_max k dt is well below the
+ * target, and unless integral_time is longer than target / (gain speed_max k). */
 #include "sim.h"
 
 #include <string.h>
@@ -28,6 +33,11 @@ void servo_read(struct wall *w, struct scene *scene)
     course_read_table(&o->target, scene, "wall", name, "push_table");
     o->gain = scene_real(scene, "wall", name, "gain");
     o->speed_most = scene_real(scene, "wall", name, "speed_max");
+    o->integral_time = scene_word(scene, "wall", name, "integral_time", "off")
+                           ? (double)INFINITY
+                       : scene_word(scene, "wall", name, "integral_time", "auto")
+                           ? 0.0
+                           : scene_real(scene, "wall", name, "integral_time");
     o->scale = course_most(&o->target);
     w->motion.direction = wall_unit_vector(scene, name, "direction");
     if (!(o->scale > 0.0))
@@ -83,6 +93,16 @@ double servo_area(const struct sim *s, const struct wall *w)
     return area;
 }
 
+/* Auto: while it moves half a diameter of the finest grains at gain speed_max. */
+static double integral_time(const struct sim *s, const struct servo *o)
+{
+    double d = (double)INFINITY;
+    for (int k = 0; k < s->grains.n_species; k++)
+        if (!s->grains.species[k].frozen)
+            d = fmin(d, s->grains.species[k].diameter);
+    return o->integral_time > 0.0 ? o->integral_time : 0.5 * d / (o->gain * o->speed_most);
+}
+
 void servo_speed(const struct sim *s, struct wall *w, double t)
 {
     const struct servo *const o = &w->servo;
@@ -93,6 +113,10 @@ void servo_speed(const struct sim *s, struct wall *w, double t)
     double borne = -v3_dot(w->force, m->direction);
     if (o->stress)
         borne /= fmax(servo_area(s, w), 1e-300);
-    const double error = o->gain * (course_at(&o->target, t - m->start) - borne) / o->scale;
-    w->state.speed = o->speed_most * fmax(-1.0, fmin(1.0, error));
+    const double target = course_at(&o->target, t - m->start);
+    const double error = o->gain * (target - borne) / o->scale;
+    const double asked = error + w->state.integral;
+    if (fabs(asked) < 1.0 && fabs(target - borne) < 0.5 * fabs(target))
+        w->state.integral += error * s->run.dt / integral_time(s, o);
+    w->state.speed = o->speed_most * fmax(-1.0, fmin(1.0, asked));
 }

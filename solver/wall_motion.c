@@ -38,6 +38,9 @@ const struct key wall_motion_keys[] = {
      "area of `stress`; auto: between the flat walls across (or the period)"},
     {"wall", "gain", KEY_REAL, "1", "(0, inf)", "1",
      "servo: speed over speed_max per error over the largest target"},
+    {"wall", "integral_time", KEY_REAL, "s", "off | auto | (0, inf)", "auto",
+     "servo: of its integral part; auto: while it moves half a diameter at gain "
+     "speed_max"},
     {"wall", "speed_max", KEY_REAL, "m s-1", "(0, inf)", NULL, "servo: its highest speed"},
     {0},
 };

@@ -27,14 +27,14 @@ struct wall_motion {
     double sweep; /* m, largest distance of its points from the axis; 0: it turns in itself */
 };
 
-/* A servo pushes along `direction` with the force that is asked for:
- *   travel' = speed_most max(-1, min(1, gain (target - force) / |target|_most)) */
+/* A servo pushes along `direction` with the force that is asked for, see servo.c. */
 struct servo {
     bool on, stress, own_area;
     struct course target; /* N or Pa */
     double scale;         /* largest absolute target */
     double area;          /* m2 */
     double gain, speed_most;
+    double integral_time; /* s; 0: auto, INFINITY: off */
 };
 
 struct wall_pose {
@@ -61,7 +61,7 @@ static inline vec3 pose_back(const struct wall_pose *p, vec3 x)
 }
 
 struct wall_state {
-    double travel, speed; /* m, m/s, of the servo */
+    double travel, speed, integral; /* m, m/s, 1, of the servo */
     double work,
         power; /* J, W, by the grains on the wall by its motion; power at the last step */
 };
