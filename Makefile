@@ -44,7 +44,7 @@ FLAGS_float := -DSILT_FLOAT -Wno-double-promotion -Wno-conversion -Wno-float-con
 # In the loop itself constants have the precision of the build too.
 ifeq ($(REAL),float)
 build/$(MODE)-float/obj/contact/%.o build/$(MODE)-float/obj/shapes/%.o \
-build/$(MODE)-float/obj/solver/contact_block.o build/$(MODE)-float/obj/solver/contact_loop.o: \
+$(addprefix build/$(MODE)-float/obj/solver/,contact_block.o contact_laws.o contact_loop.o): \
     FLAGS_float += -fsingle-precision-constant
 endif
 comma := ,
@@ -109,11 +109,12 @@ $(BUILD)/answers/%.so: $(BUILD)/obj/%.o
 	@mkdir -p $(@D)
 	$(CC) -shared $(LDFLAGS) -Wl,-Bsymbolic -o $@ $<
 
-# Tools link the first answers of each slot, and show the library's symbols to others they load.
+# Tools link the first answers of each slot, and show all the library's symbols to others they load.
 FIRST := $(patsubst %,$(BUILD)/obj/%.o,shapes/sphere \
          $(addsuffix /none,$(filter-out shapes,$(SLOT_DIRS))) lists/forces-none)
 $(BUILD)/%: $(BUILD)/obj/tools/%.o $(FIRST) $(STUDY) $(LIB)
-	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(STUDY) $(LIB) $(LIBS) -ldl
+	$(CC) $(LDFLAGS) -rdynamic -o $@ $< $(FIRST) $(STUDY) -Wl,--whole-archive $(LIB) -Wl,--no-whole-archive \
+	  $(LIBS) -ldl
 
 # What the tools of studies share.
 $(STUDY): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/study/*.c))

@@ -124,9 +124,9 @@ struct shape_ball {
 
 /* A flat element of a wall as seen by a grain: m, from x_i, in the lab. */
 struct shape_facet {
-    int n;              /* corners: 0 a plane without end, 3, 4 */
-    vec3 corner[4];     /* in order */
-    vec3 point, normal; /* one of its points; unit, towards the side of x_i */
+    int n;          /* corners, 3 or 4 */
+    vec3 corner[4]; /* in order */
+    vec3 normal;    /* unit, of its plane towards the side of x_i */
 };
 
 /* Takes the triangles of a surface, body's frame, units of size; counter-clockwise from outside. */

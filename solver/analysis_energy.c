@@ -37,7 +37,7 @@ static void sample(struct sim *s, void *state)
     e->rotation = 0.0;
     for (int i = 0; i < g->n; i++)
         if (g->inv_mass[i] != 0.0)
-            e->rotation += 0.5 * v3_dot(g->spin[i], g->spin[i]) / g->inv_inertia[i];
+            e->rotation += grain_rotation(g, i);
     e->translation = s->ledger.kinetic - e->rotation;
 }
 

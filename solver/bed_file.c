@@ -9,16 +9,18 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static void add(struct bed_file *b, int *capacity, vec3 x, double d)
+static void add(struct bed_file *b, int *capacity, vec3 x, double d, const double q[4])
 {
     if (b->n == *capacity) {
         const int more = *capacity ? 2 * *capacity : 1024;
         b->pos = xrealloc(b->pos, (size_t)*capacity, (size_t)more, sizeof *b->pos);
         b->diameter =
             xrealloc(b->diameter, (size_t)*capacity, (size_t)more, sizeof *b->diameter);
+        b->turn = xrealloc(b->turn, (size_t)*capacity, (size_t)more, sizeof *b->turn);
         *capacity = more;
     }
     b->pos[b->n] = x;
+    b->turn[b->n] = (struct quat){q[0], q[1], q[2], q[3]};
     b->diameter[b->n++] = d;
 }
 
@@ -26,7 +28,7 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
 {
     char line[512];
     int capacity = 0;
-    bool header = false;
+    bool header = false, turns = true;
     for (int number = 1; fgets(line, sizeof line, file); number++) {
         vec3 x;
         double d;
@@ -42,11 +44,23 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
         for (char *c = line; *c; c++)
             if (*c == ',' || *c == ';')
                 *c = ' ';
-        const int got = sscanf(line, "%lf %lf %lf %lf %c", &x.x, &x.y, &x.z, &d, &rest);
-        if (got != 4 || !isfinite(x.x + x.y + x.z + d) || !(d > 0.0))
-            return xprintf("%s:%d: must hold x y z diameter in m, \"%.40s\" does not", path,
-                           number, line);
-        add(b, &capacity, x, d);
+        double q[4] = {1.0, 0.0, 0.0, 0.0};
+        const int got = sscanf(line, "%lf %lf %lf %lf %lf %lf %lf %lf %c", &x.x, &x.y, &x.z, &d,
+                               &q[0], &q[1], &q[2], &q[3], &rest);
+        const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        if ((got != 4 && got != 8) || !isfinite(x.x + x.y + x.z + d) || !(d > 0.0) ||
+            !isfinite(square) || !(square > 0.0))
+            return xprintf("%s:%d: must hold x y z diameter in m, and w x y z of a quaternion "
+                           "if you wish; \"%.40s\" does not",
+                           path, number, line);
+        turns = turns && got == 8;
+        add(b, &capacity, x, d, q);
+        b->turn[b->n - 1] = quat_unit(b->turn[b->n - 1]);
+    }
+    b->described = true;
+    if (!turns) {
+        xfree(b->turn);
+        b->turn = NULL;
     }
     return b->n > 0 ? NULL : xprintf("%s: holds no grain", path);
 }
@@ -83,6 +97,16 @@ static vec3 *read_vectors(int nc, const char *name, size_t n)
         v[i] = v3(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
     xfree(x);
     return v;
+}
+
+static struct quat *read_turns(int nc, size_t n)
+{
+    double *const x = read_variable(nc, "orientation", n, 4);
+    struct quat *const q = x ? xalloc(n, sizeof *q) : NULL;
+    for (size_t i = 0; x && i < n; i++)
+        q[i] = (struct quat){x[4 * i], x[4 * i + 1], x[4 * i + 2], x[4 * i + 3]};
+    xfree(x);
+    return q;
 }
 
 static void read_species(struct bed_file *b, int nc)
@@ -151,6 +175,7 @@ static char *read_netcdf(struct bed_file *b, const char *path)
             xfree(b->spin);
             b->vel = b->spin = NULL;
         }
+        b->turn = read_turns(nc, n);
         read_species(b, nc);
     }
     nc_close(nc);
@@ -201,7 +226,7 @@ void bed_file_free(struct bed_file *b)
 {
     for (int k = 0; k < b->n_species; k++)
         xfree(b->species[k]);
-    void *const all[] = {b->pos, b->diameter, b->vel, b->spin, b->kind, b->species};
+    void *const all[] = {b->pos, b->diameter, b->vel, b->spin, b->kind, b->species, b->turn};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     *b = (struct bed_file){0};

@@ -32,6 +32,24 @@ static void put_sizes(const struct output_file *f, int radius, int species,
     xfree(k);
 }
 
+static int define_turns(const struct output_file *f, int grain)
+{
+    int dim[2] = {grain};
+    output_check(f, nc_def_dim(f->nc, "quaternion", 4, &dim[1]));
+    return output_define(f, "orientation", NC_DOUBLE, 2, dim, "1",
+                         "w x y z, the quaternion that turns the body's axes to the box's");
+}
+
+static void put_turns(const struct output_file *f, int var, const struct grains *g,
+                      const int *order)
+{
+    struct quat *const q = xalloc((size_t)g->n + 1, sizeof *q);
+    for (int i = 0; i < g->n; i++)
+        q[i] = g->orientation[order[i]];
+    output_check(f, nc_put_var_double(f->nc, var, &q[0].w));
+    xfree(q);
+}
+
 void bed_file_write(const struct sim *s)
 {
     const struct grains *const g = &s->grains;
@@ -50,6 +68,7 @@ void bed_file_write(const struct sim *s)
     output_check(&f, nc_put_att_double(f.nc, NC_GLOBAL, "time", NC_DOUBLE, 1, &s->t));
     output_check(&f, nc_def_dim(f.nc, "grain", (size_t)g->n, &dim[0]));
     output_check(&f, nc_def_dim(f.nc, "component", 3, &dim[1]));
+    const int turn = g->orientation ? define_turns(&f, dim[0]) : -1;
     const int pos =
         output_define(&f, "position", NC_DOUBLE, 2, dim, "m", "centre of the grain");
     const int vel =
@@ -69,6 +88,8 @@ void bed_file_write(const struct sim *s)
         put_vectors(&f, pos, g->pos, order, g->n);
         put_vectors(&f, vel, g->vel, order, g->n);
         put_vectors(&f, spin, g->spin, order, g->n);
+        if (turn >= 0)
+            put_turns(&f, turn, g, order);
         put_sizes(&f, radius, species, g, order);
     }
     output_file_close(&f);

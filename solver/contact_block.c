@@ -128,18 +128,6 @@ static void reduce_walls(struct block *b)
     }
 }
 
-static void reduce(struct block *b)
-{
-    struct touch *const t = &b->t;
-#pragma omp simd
-    for (int c = 0; c < t->n; c++) {
-        const real ri = t->r_i[c], rj = t->r_j[c], m = b->inv_m[c], sum = ri + rj;
-        const real inverse = 1.0 / (sum * m);
-        t->m_eff[c] = sum * inverse;
-        t->r_eff[c] = ri * rj * m * inverse;
-    }
-}
-
 static void starts(struct block *b, const unsigned char *live)
 {
     struct touch *const t = &b->t;
@@ -211,42 +199,6 @@ static void keep(const struct sim *s, struct block *b, struct slots *l)
         }
 }
 
-/* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
- * an addition to what was just added to must wait for it. */
-static void add(const struct block *b, const int *restrict to, const struct target *target)
-{
-    enum { STRIDE = 8 };
-    struct sums *const own = target->sums - target->first, *const all = target->sums;
-    for (int start = 0; start < STRIDE; start++)
-        for (int c = start; c < b->n; c += STRIDE) {
-            own[b->c.i[c]].both += laws_wide(b->on[0][c]);
-            all[to[b->slot[c]]].both += laws_wide(b->on[1][c]);
-        }
-}
-
-/* On walls, the torque is that about their pivot. */
-static void add_walls(const struct block *b, const struct target *target)
-{
-    for (int c = 0; c < b->n; c++) {
-        const double8 on = laws_wide(b->on[0][c]);
-        const vec3 turn = v3_cross(b->arm[c], v3(on[0], on[1], on[2]));
-        struct sums *const wall = &target->wall[b->wall[c]];
-        target->sums[b->c.i[c] - target->first].both += on;
-        wall->both -= on + (double8){0.0, 0.0, 0.0, 0.0, turn.x, turn.y, turn.z, 0.0};
-    }
-}
-
-/* Forces on frozen grains by the others. */
-static void add_skeleton(const struct grains *g, const struct block *b, struct report *r)
-{
-    for (int c = 0; c < b->n; c++) {
-        if (g->inv_mass[b->c.i[c]] == 0.0)
-            r->skeleton += laws_force(b, c);
-        else if (g->inv_mass[b->c.j[c]] == 0.0)
-            r->skeleton -= laws_force(b, c);
-    }
-}
-
 /* Counts, energy, the largest overlap; the forces of single contacts where someone looks. */
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
@@ -287,11 +239,11 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     for (int from = 0; from < count; from += TOUCH) {
         take(b, l, slot + from, count - from < TOUCH ? count - from : TOUCH);
         pair_up(s, b);
-        reduce(b);
+        laws_reduce(b);
         work(s, b, l, to);
-        add(b, s->neighbours.to, to);
+        laws_add(b, s->neighbours.to, to);
         if (s->grains.n_frozen > 0)
-            add_skeleton(&s->grains, b, to->report);
+            laws_add_skeleton(&s->grains, b, to->report);
     }
     b->n = 0;
 }
@@ -304,7 +256,7 @@ void block_work_walls(struct sim *s, struct block *b, const struct target *to)
     pad_walls(b);
     reduce_walls(b);
     work(s, b, &s->neighbours.walls, to);
-    add_walls(b, to);
+    laws_add_walls(b, to);
     b->n = 0;
 }
 
@@ -324,4 +276,5 @@ const struct contact_path contact_spheres = {.rows = rows,
                                              .pairs = work_pairs,
                                              .walls = walls_enter,
                                              .view = contact_view_slots,
-                                             .seen_size = seen_size};
+                                             .seen_size = seen_size,
+                                             .stop = contact_stop_spheres};

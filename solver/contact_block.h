@@ -20,6 +20,10 @@ struct report {
     double overlap;       /* largest, over the smaller radius; when asked */
     double energy;        /* J, when asked */
     bool too_deep;        /* a contact is deeper than run.overlap_max */
+    /* Of contact_points.c: contacts of a slot, where they are more than it has room for; of the last
+     * contact that is too deep the grains (j = -1 - wall) and the overlap as a part of its scale. */
+    int points, i, j;
+    double deep;
 };
 
 struct sums {     /* of the contacts of a grain in one run */
@@ -55,6 +59,10 @@ struct block {
     real qx[TOUCH], qy[TOUCH], qz[TOUCH]; /* rad/s, spin of j */
     real4 row[TOUCH];                     /* memory on its way in and out */
     real on[2][TOUCH][8];                 /* force and torque on i, on j, on their way out */
+    /* of the points of contact_points.c */
+    real *memory[TOUCH]; /* rows of the laws */
+    bool was[TOUCH];     /* it overlapped at the step before */
+    real scale[TOUCH];   /* m, that overlap is measured by */
 };
 
 /* Where the forces of a run go. */

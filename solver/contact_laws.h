@@ -48,4 +48,55 @@ static inline double4 laws_force(const struct block *b, int c)
     return (double4){(double)f[0], (double)f[1], (double)f[2], 0.0};
 }
 
+/* Reduced mass and radius. */
+static inline void laws_reduce(struct block *b)
+{
+    struct touch *const t = &b->t;
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const real ri = t->r_i[c], rj = t->r_j[c], m = b->inv_m[c], sum = ri + rj;
+        const real inverse = 1.0 / (sum * m);
+        t->m_eff[c] = sum * inverse;
+        t->r_eff[c] = ri * rj * m * inverse;
+    }
+}
+
+/* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
+ * an addition to what was just added to must wait for it. */
+static inline void laws_add(const struct block *b, const int *restrict to,
+                            const struct target *target)
+{
+    enum { STRIDE = 8 };
+    struct sums *const own = target->sums - target->first, *const all = target->sums;
+    for (int start = 0; start < STRIDE; start++)
+        for (int c = start; c < b->n; c += STRIDE) {
+            own[b->c.i[c]].both += laws_wide(b->on[0][c]);
+            all[to[b->slot[c]]].both += laws_wide(b->on[1][c]);
+        }
+}
+
+/* On walls, the torque is that about their pivot. */
+static inline void laws_add_walls(const struct block *b, const struct target *target)
+{
+    for (int c = 0; c < b->n; c++) {
+        const double8 on = laws_wide(b->on[0][c]);
+        const vec3 turn = v3_cross(b->arm[c], v3(on[0], on[1], on[2]));
+        struct sums *const wall = &target->wall[b->wall[c]];
+        target->sums[b->c.i[c] - target->first].both += on;
+        wall->both -= on + (double8){0.0, 0.0, 0.0, 0.0, turn.x, turn.y, turn.z, 0.0};
+    }
+}
+
+/* Forces on frozen grains by the others. */
+static inline void laws_add_skeleton(const struct grains *g, const struct block *b,
+                                     struct report *r)
+{
+    for (int c = 0; c < b->n; c++) {
+        if (g->inv_mass[b->c.i[c]] == 0.0)
+            r->skeleton += laws_force(b, c);
+        else if (g->inv_mass[b->c.j[c]] == 0.0)
+            r->skeleton -= laws_force(b, c);
+    }
+}
+
 #endif

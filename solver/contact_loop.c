@@ -180,6 +180,7 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     r->touching = 0;
     r->energy = r->overlap = 0.0;
     r->too_deep = false;
+    r->points = 0;
     r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
     shape.path->pairs(s, &b, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run],
                       &to);
@@ -220,12 +221,12 @@ void contact_collect(struct sim *s, int steps)
     walls_collect(s, steps);
 }
 
-static void die_overlap(const struct sim *s, int i, int j, int element, double overlap)
+void contact_die(const struct sim *s, int i, int j, double overlap)
 {
     const struct grains *const g = &s->grains;
     char other[64];
     if (j < 0)
-        snprintf(other, sizeof other, "wall %s", s->walls.wall[s->walls.wall_of[element]].name);
+        snprintf(other, sizeof other, "wall %s", s->walls.wall[-1 - j].name);
     else
         snprintf(other, sizeof other, "grain %d", g->id[j]);
     die(EXIT_UNSTABLE,
@@ -235,15 +236,19 @@ static void die_overlap(const struct sim *s, int i, int j, int element, double o
         v3_norm(g->vel[i]), s->run.overlap_max);
 }
 
-/* Finds the largest overlap, to tell. */
 void contact_guard(const struct sim *s)
+{
+    if (s->contacts->too_deep)
+        shape.path->stop(s);
+}
+
+/* Finds the largest overlap, to tell. */
+void contact_stop_spheres(const struct sim *s)
 {
     const struct grains *const g = &s->grains;
     const struct slots *const pairs = &s->neighbours.pairs, *const walls = &s->neighbours.walls;
     double most = 0.0;
-    int i = 0, j = -1, element = 0;
-    if (!s->contacts->too_deep)
-        return;
+    int i = 0, j = -1;
     for (size_t t = 0; t < pairs->n; t++) {
         const int a = pairs->owner[t], b = pairs->other[t];
         const vec3 d = domain_minimum_image(&s->domain, v3_sub(g->pos[a], g->pos[b]));
@@ -262,9 +267,8 @@ void contact_guard(const struct sim *s)
         if (overlap > most) {
             most = overlap;
             i = a;
-            j = -1;
-            element = walls->other[t];
+            j = -1 - s->walls.wall_of[walls->other[t]];
         }
     }
-    die_overlap(s, i, j, element, most);
+    contact_die(s, i, j, most);
 }

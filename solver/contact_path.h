@@ -19,7 +19,8 @@ struct contact_path {
     /* The contacts of the last step, see contact_view.h; room for what is kept for it. */
     void (*view)(const struct sim *s, struct contact_view *v);
     size_t (*seen_size)(const struct sim *s); /* bytes per slot */
-    const struct turning *turning;            /* NULL: a grain's inertia is a number, and nobody
+    void (*stop)(const struct sim *s); /* a contact is too deep: stops the run and says which */
+    const struct turning *turning;     /* NULL: a grain's inertia is a number, and nobody
                                                  asks for its orientation */
 };
 

@@ -9,6 +9,8 @@
 #include "fill.h"
 
 #include <stdlib.h>
+#include "../shapes/shape.h"
+#include "contact_path.h"
 #include "fill_grow.h"
 #include "fill_patterns.h"
 #include "fill_room.h"
@@ -99,7 +101,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
                                    sizeof *t->diameter);
             capacity *= 2;
         }
-        t->diameter[t->n++] = d;
+        t->diameter[t->n++] = d * t->bounding;
         sum += sphere(d);
     }
     if (t->n == 0 && most > 0.0)
@@ -264,7 +266,7 @@ static void lower_part(struct fill_task *t)
 {
     struct fill_region *const r = &t->region;
     const double want = solid_fraction(t) * t->room / SETTLE_LOOSE;
-    const double height = r->to[2] - r->from[2], d = t->sizes->largest;
+    const double height = r->to[2] - r->from[2], d = t->widest;
     const double least = fmin(height, r->open[2] ? 0.0 : 2.0 * d);
     double lo = 0.0, need = fmin(height, want / region_volume(r) * height);
     struct fill_region lower = *r;
@@ -362,8 +364,11 @@ void fill(struct sim *s, struct scene *scene, struct fill *f)
         task[k].sizes = &g->species[k].sizes;
         task[k].seed = s->run.seed;
         how[k] = scene_choice(scene, "grains", names[k], "fill");
-        task[k].region = region_read(s, scene, names[k], task[k].sizes->largest);
-        widest = fmax(widest, task[k].sizes->largest);
+        task[k].bounding = g->species[k].form.bounding;
+        task[k].axes = g->species[k].form.axes;
+        task[k].widest = task[k].sizes->largest * task[k].bounding;
+        task[k].region = region_read(s, scene, names[k], task[k].widest);
+        widest = fmax(widest, task[k].widest);
     }
     for (int k = 0; k < n && scene_errors(scene) == 0; k++) {
         prepare(s, &task[k], how[k]);
@@ -375,8 +380,9 @@ void fill(struct sim *s, struct scene *scene, struct fill *f)
             place(&b, &task[k], how[k], &motion);
         if (scene_errors(scene) == 0)
             fill_random(s, &b, task, n, how);
-        check_walls(s, scene, &b, names);
-        *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin};
+        if (!shape.path->turning) /* of others, walls_check tells where they reach */
+            check_walls(s, scene, &b, names);
+        *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin, motion.turn};
         b.grain = NULL;
         fill_grid_close(&b);
     }
@@ -391,6 +397,7 @@ void fill_free(struct fill *f)
     xfree(f->grain);
     xfree(f->vel);
     xfree(f->spin);
+    xfree(f->turn);
     *f = (struct fill){0};
 }
 

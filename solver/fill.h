@@ -2,13 +2,14 @@
 #ifndef FILL_H
 #define FILL_H
 
+#include "rotation.h"
 #include "scene.h"
 
 struct sim;
 
 struct placed {
     vec3 pos;        /* m */
-    double diameter; /* m */
+    double diameter; /* m, of the bounding sphere */
     int species;
 };
 
@@ -16,8 +17,9 @@ struct placed {
 struct fill {
     int n;
     struct placed *grain;
-    int n_motion;     /* the first grains, whose motion a file may give */
-    vec3 *vel, *spin; /* m/s, rad/s; vel.x is NAN where it does not */
+    int n_motion;      /* the first grains, whose motion a file may give */
+    vec3 *vel, *spin;  /* m/s, rad/s; vel.x is NAN where it does not */
+    struct quat *turn; /* body's axes to the box's; w is NAN where it does not; or NULL */
 };
 
 /* Places the grains of every species. What cannot be placed (no room, no file, overlap) goes on

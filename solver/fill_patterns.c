@@ -14,7 +14,7 @@ static vec3 lattice_point(const double lo[3], const int n[3], double spacing, in
 
 void fill_lattice(struct fill_grid *b, const struct fill_task *t)
 {
-    const double d = t->sizes->largest;
+    const double d = t->widest;
     const double spacing = scene_word(t->scene, "grains", t->name, "spacing", "auto")
                                ? 1.05 * d
                                : scene_real(t->scene, "grains", t->name, "spacing");
@@ -61,7 +61,7 @@ void fill_unit_cell(struct fill_grid *b, const struct fill_task *t)
     struct scene *const scene = t->scene;
     const struct unit_cell *const u =
         &unit_cells[scene_choice(scene, "grains", t->name, "cell")];
-    const double d = t->sizes->largest;
+    const double d = t->widest;
     const bool given = !scene_word(scene, "grains", t->name, "spacing", "auto");
     const double edge =
         given ? scene_real(scene, "grains", t->name, "spacing") : u->touching * d;
@@ -108,18 +108,20 @@ void fill_point(struct fill_grid *b, const struct fill_task *t)
     fill_grid_add(b, (struct placed){x, t->diameter[0], t->species});
 }
 
-static void add_motion(struct fill_motion *m, int n, vec3 vel, vec3 spin)
+static void add_motion(struct fill_motion *m, int n, vec3 vel, vec3 spin, struct quat turn)
 {
     if (n >= m->capacity) {
         const int more = 2 * n + 1024;
         m->vel = xrealloc(m->vel, (size_t)m->capacity, (size_t)more, sizeof *m->vel);
         m->spin = xrealloc(m->spin, (size_t)m->capacity, (size_t)more, sizeof *m->spin);
+        m->turn = xrealloc(m->turn, (size_t)m->capacity, (size_t)more, sizeof *m->turn);
         m->capacity = more;
     }
     for (int i = m->n; i < n; i++) /* placed otherwise */
-        m->vel[i].x = (double)NAN;
+        m->vel[i].x = m->turn[i].w = (double)NAN;
     m->vel[n] = vel;
     m->spin[n] = spin;
+    m->turn[n] = turn;
     m->n = n + 1;
 }
 
@@ -166,9 +168,15 @@ void fill_from_file(struct fill_grid *b, const struct fill_task *t, struct fill_
                         "grain %d at %g %g %g m is outside the box", i + 1, x.x, x.y, x.z);
             break;
         }
-        if (f.vel)
-            add_motion(m, b->n, f.vel[i], f.spin[i]);
-        fill_grid_add(b, (struct placed){x, f.diameter[i], t->species});
+        if (f.vel || f.turn) {
+            const vec3 none = {(double)NAN, 0.0, 0.0};
+            struct quat turn = f.turn ? f.turn[i] : (struct quat){.w = (double)NAN};
+            if (f.turn && f.described)
+                turn = quat_mul(turn, t->axes);
+            add_motion(m, b->n, f.vel ? f.vel[i] : none, f.vel ? f.spin[i] : none, turn);
+        }
+        const double d = f.described ? t->bounding * f.diameter[i] : f.diameter[i];
+        fill_grid_add(b, (struct placed){x, d, t->species});
     }
     bed_file_free(&f);
 }

@@ -11,18 +11,22 @@ struct fill_task {
     const char *name; /* of the species */
     int species;      /* its index */
     const struct sizes *sizes;
+    double bounding;  /* diameter of the bounding sphere over that of the sizes */
+    struct quat axes; /* of the form, see grains.h */
+    double widest;    /* m, bounding diameter of the largest */
     struct fill_region region;
     const struct sim *walls; /* of which its grains keep clear; NULL: none */
     double room;             /* m3 of the region that walls leave */
     int n;                   /* grains asked for (unit_cell, file: what there is) */
-    double *diameter;        /* m, n of them, in the order drawn */
+    double *diameter;        /* m, of the bounding spheres, n of them, in the order drawn */
     unsigned long seed;
 };
 
 /* Motion of the first n grains, where a file gives it; vel.x is NAN for those of no file. */
 struct fill_motion {
     int n, capacity;
-    vec3 *vel, *spin; /* m/s, rad/s */
+    vec3 *vel, *spin;  /* m/s, rad/s */
+    struct quat *turn; /* as in fill.h */
 };
 
 /* Bounds of the centres of grains of radius r. */

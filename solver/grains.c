@@ -3,8 +3,10 @@
 
 #include <string.h>
 #include "../shapes/shape.h"
+#include "contact_path.h"
 #include "fill.h"
 #include "sim.h"
+#include "turning.h"
 
 #define FILLS "lattice | random | settle | grow | unit_cell | point | file"
 
@@ -98,10 +100,15 @@ static void read_forms(struct grains *g, struct scene *scene)
     for (int k = 0; k < g->n_species; k++)
         form[k] = (struct shape_form){.bounding = 1.0,
                                       .inertia = {0.4, 0.4, 0.4},
+                                      .axes = quat_one(),
                                       .sphericity = (double)NAN,
                                       .points_most = 1};
     if (shape.init)
         shape.init(scene, g, form);
+    if (shape.path->turning) {
+        scene_declare(scene, shape.path->turning->keys);
+        shape.path->turning->read(g, scene);
+    }
     for (int k = 0; k < g->n_species; k++)
         g->species[k].form = form[k];
     xfree(form);
@@ -138,8 +145,19 @@ static void register_fields(struct sim *s)
          (void **)&g->inv_inertia, state},
         {"grain_volume", "m3", "volume", PLACE_GRAIN, KIND_REAL, (void **)&g->volume, state},
     };
+    const struct field turn[] = {
+        {"orientation", "1", "w x y z, the quaternion that turns the body's axes to the box's",
+         PLACE_GRAIN, KIND_QUAT, (void **)&g->orientation, both},
+        {"principal_inertia", "kg m2", "principal moments of inertia", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->inertia, state},
+        {"angular_momentum", "kg m2 s-1", "angular momentum within a step", PLACE_GRAIN,
+         KIND_VEC3, (void **)&g->momentum, 0},
+        {"full_spin", "rad s-1", "predicted angular velocity", PLACE_GRAIN, KIND_VEC3,
+         (void **)&g->full_spin, state}};
     for (size_t i = 0; i < sizeof list / sizeof list[0]; i++)
         fields_add(&s->fields, list[i]);
+    for (size_t i = 0; g->orientation && i < sizeof turn / sizeof turn[0]; i++)
+        fields_add(&s->fields, turn[i]);
 }
 
 static void allocate(struct grains *g, int n)
@@ -155,6 +173,12 @@ static void allocate(struct grains *g, int n)
         *vectors[i] = xalloc((size_t)n, sizeof(vec3));
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         *numbers[i] = xalloc((size_t)n, sizeof(double));
+    if (!shape.path->turning)
+        return;
+    g->orientation = xalloc((size_t)n, sizeof *g->orientation);
+    g->inertia = xalloc((size_t)n, sizeof *g->inertia);
+    g->momentum = xalloc((size_t)n, sizeof *g->momentum);
+    g->full_spin = xalloc((size_t)n, sizeof *g->full_spin);
 }
 
 void grains_follow(struct grains *g, void **data, size_t size)
@@ -213,7 +237,7 @@ double grains_widest(const struct grains *g)
     for (int i = 0; i < g->n; i++)
         widest = fmax(widest, g->radius[i]);
     for (int k = 0; k < g->n_species; k++)
-        widest = fmax(widest, 0.5 * g->species[k].largest);
+        widest = fmax(widest, 0.5 * g->species[k].largest * g->species[k].form.bounding);
     return widest;
 }
 
@@ -233,9 +257,12 @@ void grains_body(struct grains *g, int i, double diameter)
     g->inv_mass[i] = 1.0 / g->mass[i];
     g->inv_inertia[i] =
         1.0 / (scale * (round ? inertia.x : (inertia.x + inertia.y + inertia.z) / 3.0));
+    if (g->inertia)
+        g->inertia[i] = v3_scale(scale, inertia);
 }
 
-static void make_bodies(struct grains *g, struct scene *scene, const struct fill *f)
+static void make_bodies(struct grains *g, struct scene *scene, const struct fill *f,
+                        unsigned long seed)
 {
     const char *const *names;
     const int species = scene_names(scene, "grains", &names);
@@ -251,7 +278,7 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct fill
         g->id[i] = i;
         g->kind[i] = p->species;
         g->pos[i] = p->pos;
-        grains_body(g, i, p->diameter);
+        grains_body(g, i, p->diameter / sp->form.bounding);
         if (sp->frozen) {
             g->inv_mass[i] = g->inv_inertia[i] = 0.0;
             g->n_frozen++;
@@ -262,6 +289,12 @@ static void make_bodies(struct grains *g, struct scene *scene, const struct fill
             g->vel[i] = velocity[p->species];
             g->spin[i] = spin[p->species];
         }
+        if (!g->orientation)
+            continue;
+        shape.path->turning->place(g, i, seed);
+        if (i < f->n_motion && f->turn && !isnan(f->turn[i].w))
+            g->orientation[i] = f->turn[i];
+        g->full_spin[i] = g->spin[i];
     }
     xfree(velocity);
 }
@@ -279,12 +312,13 @@ void grains_create(struct sim *s, struct scene *scene)
         fill(s, scene, &f);
     const int n = f.n;
     allocate(g, n);
-    make_bodies(g, scene, &f);
+    make_bodies(g, scene, &f, s->run.seed);
     g->next_id = n;
     for (int i = 0; i < g->n_species; i++)
         g->species[i].count = 0;
     for (int i = 0; i < n; i++)
-        species_count(&g->species[g->kind[i]], f.grain[i].diameter);
+        species_count(&g->species[g->kind[i]],
+                      f.grain[i].diameter / g->species[g->kind[i]].form.bounding);
     register_fields(s);
     fill_free(&f);
 }
@@ -299,7 +333,8 @@ void grains_free(struct sim *s)
     void *const all[] = {g->id,        g->kind,     g->pos,         g->vel,         g->spin,
                          g->force,     g->torque,   g->load,        g->load_torque, g->radius,
                          g->mass,      g->inv_mass, g->inv_inertia, g->volume,      g->species,
-                         g->materials, g->follower};
+                         g->materials, g->follower, g->orientation, g->inertia,     g->momentum,
+                         g->full_spin};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

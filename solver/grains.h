@@ -9,6 +9,7 @@
 #define GRAINS_H
 
 #include "domain.h"
+#include "rotation.h"
 #include "size_distribution.h"
 
 struct sim;
@@ -24,6 +25,7 @@ struct material {
 struct shape_form {
     double bounding;   /* radius of the sphere about the centre of mass that holds it, >= 1 */
     vec3 inertia;      /* principal, over m size^2 */
+    struct quat axes;  /* turns the principal axes to those in which the shape is described */
     double sphericity; /* area of the sphere of its volume over its own; NAN: unknown */
     int points_most;   /* most points of contact with a grain of any species, or with a wall's
                           element */
@@ -36,7 +38,9 @@ struct species {
     double largest;  /* m, of its diameters */
     struct sizes sizes;
     struct shape_form form;
-    double density; /* kg/m3 */
+    bool turned;             /* starts with the orientation given, not with a random one */
+    struct quat orientation; /* turns the axes of the description to those of the box */
+    double density;          /* kg/m3 */
     int count;
     int n_made, room;
     double *made; /* m, diameters of all grains that it ever had */
@@ -69,6 +73,12 @@ struct grains {
     double *inv_mass;    /* 1/kg; 0 for a frozen grain */
     double *inv_inertia; /* 1/(kg m2); 0 for a frozen grain */
     double *volume;      /* m3 */
+    /* Of shapes that turn (turning.h); else NULL. */
+    struct quat
+        *orientation; /* body's frame, that of the principal axes, to the laboratory's */
+    vec3 *inertia;    /* kg m2, principal; real, for a frozen grain too */
+    vec3 *momentum;   /* kg m2/s, angular, in the laboratory: within the steps of a call */
+    vec3 *full_spin;  /* rad/s, predicted for the full step */
 
     int n_species, n_materials;
     struct species *species;
@@ -96,6 +106,15 @@ void grains_body(struct grains *g, int i, double diameter);
 void species_count(struct species *k, double diameter);
 /* m; radius of the widest grain that there is or that a species may still bring. */
 double grains_widest(const struct grains *g);
+
+/* J; energy of the rotation of a grain that moves. */
+static inline double grain_rotation(const struct grains *g, int i)
+{
+    if (!g->orientation)
+        return 0.5 * v3_dot(g->spin[i], g->spin[i]) / g->inv_inertia[i];
+    const struct mat3 m = quat_matrix(g->orientation[i]);
+    return 0.5 * v3_dot(g->spin[i], rotation_momentum(&m, g->spin[i], g->inertia[i]));
+}
 
 static inline int grain_material(const struct grains *g, int i)
 {

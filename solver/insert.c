@@ -6,7 +6,9 @@
 #include "../porosity/porosity.h"
 #include "contact_loop.h"
 #include "fill_grid.h"
+#include "contact_path.h"
 #include "sim.h"
+#include "turning.h"
 
 #define PI 3.14159265358979323846
 
@@ -33,7 +35,8 @@ static void gather(const struct sim *s, const struct source *o, struct fill_grid
     vec3 lo, hi;
     insert_region_bounds(&o->region, &lo, &hi);
     const vec3 centre = v3_scale(0.5, v3_add(lo, hi)), half = v3_scale(0.5, v3_sub(hi, lo));
-    const double largest = g->species[o->species].largest;
+    const double largest =
+        g->species[o->species].largest * g->species[o->species].form.bounding;
     fill_grid_open(near, &s->domain, largest, g->n / 8 + 64);
     for (int i = 0; i < g->n; i++) {
         const vec3 d = domain_minimum_image(&s->domain, v3_sub(g->pos[i], centre));
@@ -62,6 +65,8 @@ int insert_grain(struct sim *s, int species, vec3 pos, double diameter, vec3 vel
     g->pos[i] = pos;
     g->vel[i] = vel;
     grains_body(g, i, diameter);
+    if (g->orientation)
+        shape.path->turning->place(g, i, s->run.seed);
     if (s->coupling.vel_old) {
         s->coupling.vel_old[i] = vel;
         s->coupling.pos_load[i] = pos;
@@ -96,11 +101,9 @@ static void account(struct sim *s, int i, double sign)
     const struct grains *const g = &s->grains;
     const vec3 v = g->vel[i];
     const double mass = g->mass[i];
-    const double energy =
-        0.5 * mass * v3_dot(v, v) +
-        (g->inv_inertia[i] > 0.0 ? 0.5 * v3_dot(g->spin[i], g->spin[i]) / g->inv_inertia[i]
-                                 : 0.0) -
-        mass * v3_dot(s->domain.gravity, g->pos[i]);
+    const double energy = 0.5 * mass * v3_dot(v, v) +
+                          (g->inv_inertia[i] > 0.0 ? grain_rotation(g, i) : 0.0) -
+                          mass * v3_dot(s->domain.gravity, g->pos[i]);
     if (sign > 0.0) {
         t->inserted += 1.0;
         t->mass_in += mass;
@@ -182,7 +185,8 @@ static int serve(struct sim *s, int source, double until)
         if (!open)
             gather(s, o, &near);
         gsl_rng_set(rng, mix(mix(seed, (unsigned long)o->done), (unsigned long)s->step));
-        if (!find_place(s, o, &near, d, rng, &x)) {
+        const double wide = d * k->form.bounding;
+        if (!find_place(s, o, &near, wide, rng, &x)) {
             o->waits = o->waits < 0.0 ? s->t : o->waits;
             if (s->t - o->waits >= o->patience)
                 die_full(s, o, d);
@@ -192,7 +196,7 @@ static int serve(struct sim *s, int source, double until)
                           o->velocity.y + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
                           o->velocity.z + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0));
         const int i = insert_grain(s, o->species, x, d, v);
-        fill_grid_add(&near, (struct placed){x, d, o->species});
+        fill_grid_add(&near, (struct placed){x, wide, o->species});
         o->waits = -1.0;
         o->done += 1.0;
         o->done_mass += s->grains.mass[i];

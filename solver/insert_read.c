@@ -80,7 +80,8 @@ static void check_region(struct sim *s, struct scene *scene, const struct source
             scene_error(scene, "insert", o->name, NULL,
                         "the region leaves the box in %c: it reaches from %g to %g m", 'x' + a,
                         low[a], high[a]);
-    const double largest = s->grains.species[o->species].largest;
+    const struct species *const k = &s->grains.species[o->species];
+    const double largest = k->largest * k->form.bounding;
     if (insert_region_room(&o->region) < 0.5 * largest)
         scene_error(scene, "insert", o->name, NULL,
                     "the region is narrower than the largest grain, %g m", largest);

@@ -24,8 +24,7 @@ static void sum_grains(struct sim *s)
         l->mass += g->mass[i];
         l->inertia += inertia;
         l->momentum = v3_axpy(l->momentum, inertia, g->vel[i]);
-        l->kinetic += 0.5 * inertia * v3_dot(g->vel[i], g->vel[i]) +
-                      0.5 * v3_dot(g->spin[i], g->spin[i]) / g->inv_inertia[i];
+        l->kinetic += 0.5 * inertia * v3_dot(g->vel[i], g->vel[i]) + grain_rotation(g, i);
         l->potential -= inertia * v3_dot(s->domain.gravity, g->pos[i]);
     }
     l->elastic = s->elastic;

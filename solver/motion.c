@@ -10,7 +10,9 @@
 #include "motion.h"
 
 #include "contact_loop.h"
+#include "contact_path.h"
 #include "sim.h"
+#include "turning.h"
 
 static void die_lost(const struct sim *s)
 {
@@ -115,6 +117,7 @@ static int run_end(const struct sim *s, int run)
 void motion_start(struct sim *s, int parity)
 {
     const struct grains *const g = &s->grains;
+    const struct turning *const turns = shape.path->turning;
     const struct kicks k = kicks_of(s);
     double fastest = 0.0;
 #pragma omp for schedule(static) nowait
@@ -122,15 +125,26 @@ void motion_start(struct sim *s, int parity)
         for (int i = run * RUN; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
-            const vec3 f = g->force[i], t = g->torque[i];
+            const vec3 f = g->force[i], t = g->torque[i], spin = g->spin[i];
             const double8 at_hand = {f.x, f.y, f.z, 0.0, t.x, t.y, t.z, 0.0};
             s->bodies[i].full[3] = (real)grain_material(g, i);
             const double square =
                 kick_drift(s, &k, i, state_of(g, i), rates(s, &k, i, at_hand));
             fastest = square <= fastest ? fastest : square; /* not a number counts as fast */
+            if (turns)
+                turns->start(s, i, spin, t);
         }
     neighbours_speed(s, parity, fastest);
 #pragma omp barrier
+}
+
+/* Through memory that the compiler does not look into, see sums_part. */
+static vec3 torque_of(double8 f)
+{
+    volatile double a[3];
+    for (int k = 0; k < 3; k++)
+        a[k] = f[4 + k];
+    return v3(a[0], a[1], a[2]);
 }
 
 static void set_forces(struct grains *g, int i, double8 f)
@@ -155,12 +169,15 @@ static void end_steps(struct sim *s)
             m.vel_spin += k.half * rates(s, &k, i, f);
             g->vel[i] = motion_vel(&m);
             g->spin[i] = motion_spin(&m);
+            if (shape.path->turning)
+                shape.path->turning->end(s, i, g->torque[i]);
         }
 }
 
 void motion_turn(struct sim *s, bool last, int parity)
 {
     struct grains *const g = &s->grains;
+    const struct turning *const turns = shape.path->turning;
     const struct kicks k = kicks_of(s);
     double fastest = 0.0;
     if (last) {
@@ -172,12 +189,14 @@ void motion_turn(struct sim *s, bool last, int parity)
         for (int i = run * RUN; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
-            const double8 rate = rates(s, &k, i, forces(s, &k, i));
+            const double8 f = forces(s, &k, i), rate = rates(s, &k, i, f);
             struct motion_state m =
                 body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
             m.vel_spin += k.half * rate;
             const double square = kick_drift(s, &k, i, m, rate);
             fastest = square <= fastest ? fastest : square;
+            if (turns)
+                turns->turn(s, i, torque_of(f));
         }
     neighbours_speed(s, parity, fastest);
 #pragma omp barrier

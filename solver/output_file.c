@@ -97,6 +97,8 @@ static void define_grains(struct output_file *f, const struct sim *s)
     const struct grains *const g = &s->grains;
     define_dim(f, "grain", f->varies ? NC_UNLIMITED : (size_t)g->n, DIM_GRAIN);
     define_dim(f, "component", 3, DIM_COMPONENT);
+    if (g->orientation)
+        define_dim(f, "quaternion", 4, DIM_QUATERNION);
     int var;
     output_check(f, nc_def_var(f->nc, "component", NC_STRING, 1, &f->dim[DIM_COMPONENT], &var));
     output_text(f, var, "long_name", "component of a vector");
@@ -205,6 +207,8 @@ static int field_dims(const struct output_file *f, const struct field *field, in
             dims[n++] = f->dim[((int)field->place - PLACE_FACE_X == a ? DIM_XF : DIM_X) + a];
     if (field->kind == KIND_VEC3)
         dims[n++] = f->dim[DIM_COMPONENT];
+    if (field->kind == KIND_QUAT)
+        dims[n++] = f->dim[DIM_QUATERNION];
     return n;
 }
 
@@ -299,7 +303,7 @@ static void *by_id(const struct sim *s, const struct field *field, const int *or
     for (int i = 0; i < s->grains.n; i++)
         memcpy(x + (size_t)i * size, from + (size_t)order[i] * size, size);
     count[1] = (size_t)s->grains.n;
-    count[2] = 3;
+    count[2] = size / sizeof(double);
     return x;
 }
 

@@ -9,6 +9,7 @@
 enum {
     DIM_GRAIN,
     DIM_COMPONENT,
+    DIM_QUATERNION,
     DIM_X,
     DIM_Y,
     DIM_Z,

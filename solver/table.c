@@ -1,6 +1,8 @@
 /* table.c - the lists that output, restart and sorting walk. */
 #include "table.h"
 
+#include "rotation.h"
+
 #include <stdarg.h>
 #include <string.h>
 
@@ -23,7 +25,16 @@ void fields_add(struct fields *f, struct field field)
 
 size_t kind_size(enum kind kind)
 {
-    return kind == KIND_REAL ? sizeof(double) : kind == KIND_INT ? sizeof(int) : sizeof(vec3);
+    switch (kind) {
+    case KIND_REAL:
+        return sizeof(double);
+    case KIND_INT:
+        return sizeof(int);
+    case KIND_QUAT:
+        return sizeof(struct quat);
+    default:
+        return sizeof(vec3);
+    }
 }
 
 void series_add(struct series *s, const char *name, const char *unit, const char *long_name,

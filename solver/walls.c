@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include "../shapes/shape.h"
 #include "sim.h"
 
 const struct key wall_keys[] = {
@@ -48,14 +49,14 @@ static double half_way(double low, double high)
 }
 
 static struct wall *add_wall(struct sim *s, const char *name, const struct wall_kind *kind,
-                             void *shape)
+                             void *surface)
 {
     struct wall *const w = &s->walls.wall[s->walls.n++];
     snprintf(w->name, sizeof w->name, "%.31s", name);
     w->kind = kind;
-    w->shape = shape;
-    w->elements = kind->elements(shape);
-    kind->bounds(shape, &w->low, &w->high);
+    w->shape = surface;
+    w->elements = kind->elements(surface);
+    kind->bounds(surface, &w->low, &w->high);
     w->middle = v3(half_way(w->low.x, w->high.x), half_way(w->low.y, w->high.y),
                    half_way(w->low.z, w->high.z));
     wall_pose_at(w, 0.0, 0.0);
@@ -194,6 +195,20 @@ struct wall_seen wall_see(const struct sim *s, int element, vec3 x)
         seen.arm = pose_turn(&w->pose, seen.arm);
     }
     return seen;
+}
+
+int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4])
+{
+    const int k = s->walls.wall_of[element], local = element - s->walls.first[k];
+    const struct wall *const w = &s->walls.wall[k];
+    const int n = w->kind->corners ? w->kind->corners(w->shape, local, out) : 0;
+    const vec3 in = into_frame(s, w, local, x);
+    for (int c = 0; c < n; c++) {
+        out[c] = v3_sub(out[c], in);
+        if (w->pose.turned)
+            out[c] = pose_turn(&w->pose, out[c]);
+    }
+    return n;
 }
 
 static void near_of_wall(const struct wall *w, vec3 x, double reach, struct found *out)
@@ -344,6 +359,34 @@ bool walls_named(const struct sim *s)
     return false;
 }
 
+/* The same for a grain as it lies: as part of the balls by which it touches walls, times its radius. A
+ * convex shape without them is only seen behind a wall. */
+static double grain_gap(const struct sim *s, int i, int *which)
+{
+    const struct grains *const g = &s->grains;
+    const vec3 x = g->pos[i];
+    if (!g->orientation)
+        return walls_gap(s, x, g->radius[i], 0.0, which);
+    if (!shape.balls)
+        return walls_gap(s, x, 0.0, 0.0, which);
+    const double size = g->radius[i] / g->species[g->kind[i]].form.bounding;
+    const struct mat3 m = quat_matrix(g->orientation[i]);
+    int n = 0;
+    const struct shape_ball *const ball = shape.balls(g->kind[i], &n);
+    double least = 0.0;
+    for (int b = 0; b < n; b++) {
+        const vec3 c = v3_add(x, mat3_turn(&m, v3_scale(size, ball[b].centre)));
+        const double r = size * ball[b].radius;
+        int k = 0;
+        const double gap = walls_gap(s, c, r, 0.0, &k) / r * g->radius[i];
+        if (gap < least) {
+            least = gap;
+            *which = k;
+        }
+    }
+    return least;
+}
+
 void walls_check(struct sim *s, struct scene *scene)
 {
     const struct grains *const g = &s->grains;
@@ -352,7 +395,7 @@ void walls_check(struct sim *s, struct scene *scene)
         int k = 0;
         if (g->inv_mass[i] == 0.0)
             continue;
-        const double gap = walls_gap(s, x, g->radius[i], 0.0, &k);
+        const double gap = grain_gap(s, i, &k);
         if (gap >= -s->run.overlap_max * g->radius[i])
             continue;
         const char *const name = s->walls.wall[k].name;

@@ -62,6 +62,8 @@ struct wall_seen {
     vec3 arm; /* m, from the pivot of the wall to the point */
 };
 struct wall_seen wall_see(const struct sim *s, int element, vec3 x);
+/* Corners of a flat element, m, as seen from x; returns how many, 0 for other elements. */
+int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4]);
 
 /* Adds the elements that a sphere of this radius at x may touch within `margin`. */
 void walls_around(const struct sim *s, vec3 x, double reach, struct found *out);

@@ -62,7 +62,7 @@ static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_GRAIN && f->flags & FIELD_OUTPUT && f->kind != KIND_INT &&
-            strcmp(f->name, "position") != 0)
+            f->kind != KIND_QUAT && strcmp(f->name, "position") != 0)
             attribute(o, f, "Node", t, n_time, f->kind == KIND_VEC3 ? 2 : 1, dims, most);
     }
     fprintf(o, "</Grid>\n");

@@ -79,6 +79,15 @@ static vec3 middle(const void *shape, int element)
     return v3_axpy(t->a, 1.0 / 3.0, v3_add(t->e1, t->e2));
 }
 
+static int corners(const void *shape, int element, vec3 out[4])
+{
+    const struct triangle *const t = &((const struct mesh *)shape)->triangle[element];
+    out[0] = t->a;
+    out[1] = v3_add(t->a, t->e1);
+    out[2] = v3_add(t->a, t->e2);
+    return 3;
+}
+
 static void draw(const void *shape, struct wall_canvas *c)
 {
     const struct mesh *const m = shape;
@@ -100,4 +109,5 @@ const struct wall_kind wall_mesh = {.name = "mesh",
                                     .near = near,
                                     .bounds = bounds,
                                     .middle = middle,
+                                    .corners = corners,
                                     .draw = draw};

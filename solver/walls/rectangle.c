@@ -45,6 +45,17 @@ static void bounds(const void *shape, vec3 *low, vec3 *high)
                c.z + fmax(0.0, e.z) + fmax(0.0, f.z));
 }
 
+static int corners(const void *shape, int element, vec3 out[4])
+{
+    const struct plate *const p = shape;
+    (void)element;
+    out[0] = p->corner;
+    out[1] = v3_add(p->corner, p->edge[0]);
+    out[2] = v3_add(out[1], p->edge[1]);
+    out[3] = v3_add(p->corner, p->edge[1]);
+    return 4;
+}
+
 static void draw(const void *shape, struct wall_canvas *canvas)
 {
     const struct plate *const p = shape;
@@ -60,5 +71,6 @@ const struct wall_kind wall_rectangle = {.name = "rectangle",
                                          .free = xfree,
                                          .elements = wall_single,
                                          .view = view,
+                                         .corners = corners,
                                          .bounds = bounds,
                                          .draw = draw};

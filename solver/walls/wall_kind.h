@@ -57,6 +57,9 @@ struct wall_kind {
     void (*bounds)(const void *shape, vec3 *low, vec3 *high);
     /* The middle of an element, for its nearest periodic image. NULL: that of the bounds. */
     vec3 (*middle)(const void *shape, int element);
+    /* The corners of a flat element with straight edges, in order; returns how many (3 or 4). NULL:
+     * there are none. */
+    int (*corners)(const void *shape, int element, vec3 out[4]);
     /* Largest distance of its points from the axis of a turn; 0 where the turn maps it onto
      * itself. NULL: from its bounds. */
     double (*sweep)(const void *shape, vec3 point, vec3 axis);

@@ -1,0 +1,264 @@
+/* shapes/clump.c - a grain is a rigid union of overlapping spheres.
+ *
+ * Two clumps touch where their spheres do: each pair of spheres that overlaps is a contact, with its
+ * own radii, and so is each sphere on an element of a wall. Volume, centre and inertia are those of
+ * the union, each part counted once (disc_union.c), not the sum over spheres that many codes take.
+ * A clump of one sphere is a sphere, to the last bit. Also the template for shapes with more than one
+ * contact a pair. */
+#include <string.h>
+#include "../solver/ball_sets.h"
+#include "../solver/bed_file.h"
+#include "shape.h"
+
+const struct about shape_about = {
+    .name = "clump",
+    .summary = "a rigid union of overlapping spheres, by name, from a list or a file",
+    .equation = "contacts = overlaps of the spheres; mass properties of the union",
+    .source = "exact",
+    .range = "always"};
+const struct key shape_keys[] = {
+    {"grains", "clump", KEY_TEXT, "", "", "",
+     "spheres by name (pair, rod, triangle, tetrahedron, cross, cube, tetrapod) or from a "
+     "file, "
+     "x y z r a line; any unit: `diameter` scales them"},
+    {"grains", "spheres", KEY_TEXT, "", "", "",
+     "in place of clump: x y z r, x y z r, ... in any unit"},
+    {"grains", "contacts_most", KEY_REAL, "1", "auto | [1, 256]", "auto",
+     "most contacts of two grains at a time that there is room for"},
+    {0},
+};
+
+enum { SPHERES_MOST = 2000, LANES = 8 };
+
+/* The spheres of a species in the frame of the principal axes, units of size; arrays are padded by
+ * spheres that touch nothing. */
+struct form {
+    int n, padded;
+    double *x, *y, *z, *r;
+    struct shape_ball *ball;
+    struct shape_form form;
+    struct ball *as_ball;
+};
+
+static struct form *forms;
+static int n_forms;
+
+static struct ball *read_balls(struct scene *scene, const char *name, int *n)
+{
+    const char *const named = scene_text(scene, "grains", name, "clump");
+    const char *const list = scene_text(scene, "grains", name, "spheres");
+    char *why = NULL;
+    struct ball *b = NULL;
+    const char *const key = list[0] != '\0' ? "spheres" : "clump";
+    if ((named[0] == '\0') == (list[0] == '\0')) {
+        scene_error(scene, "grains", name, key, "give one of clump (%s, or a file) and spheres",
+                    ball_set_names);
+    } else if (list[0] != '\0') {
+        b = ball_set_listed(list, n, &why);
+    } else {
+        char *const path = bed_file_path(named, scene_path(scene));
+        b = ball_set_named(named, path, n, &why);
+        xfree(path);
+    }
+    if (b && !ball_set_whole(b, *n)) {
+        scene_error(scene, "grains", name, key, "the spheres do not hang together");
+        xfree(b);
+        b = NULL;
+    }
+    if (why)
+        scene_error(scene, "grains", name, key, "%s", why);
+    xfree(why);
+    if (!b) { /* an error is on the list */
+        b = xalloc(1, sizeof *b);
+        b[0].r = 1.0;
+        *n = 1;
+    }
+    return b;
+}
+
+/* A sphere within another one adds nothing. */
+static int drop_inner(struct ball *b, int n)
+{
+    int kept = 0;
+    for (int i = 0; i < n; i++) {
+        bool inside = false;
+        for (int k = 0; k < n && !inside; k++) {
+            const double d = v3_norm(v3_sub(b[i].centre, b[k].centre));
+            inside = k != i && b[k].r > 0.0 && d + b[i].r <= b[k].r &&
+                     (k < i || d > 0.0 || b[k].r > b[i].r);
+        }
+        if (inside)
+            b[i].r = 0.0;
+    }
+    for (int i = 0; i < n; i++)
+        if (b[i].r > 0.0)
+            b[kept++] = b[i];
+    return kept;
+}
+
+/* Moments that differ by round-off alone are the same. */
+static vec3 alike(vec3 j)
+{
+    const double mean = (j.x + j.y + j.z) / 3.0;
+    return j.x - j.z < 1e-9 * mean ? v3(mean, mean, mean) : j;
+}
+
+/* Centre, axes and size of the union; the balls go to the frame of the principal axes. */
+static void find_form(struct form *f, struct ball *b, int n)
+{
+    struct shape_form *const form = &f->form;
+    if (n == 1) {
+        b[0] = (struct ball){.centre = {0.0, 0.0, 0.0}, .r = 1.0};
+        form->sphericity = 1.0;
+        return;
+    }
+    const struct ball_union u = ball_union(b, n);
+    const double size = cbrt(u.volume / (4.0 / 3.0 * 3.14159265358979323846));
+    const vec3 inertia = alike(
+        v3_scale(1.0 / (u.volume * size * size), rotation_principal(u.inertia, &form->axes)));
+    if (inertia.x == inertia.z)
+        form->axes = quat_one();
+    const struct mat3 m = quat_matrix(form->axes);
+    form->inertia = inertia;
+    form->sphericity = 4.0 * 3.14159265358979323846 * size * size / u.area;
+    form->bounding = 0.0;
+    for (int i = 0; i < n; i++) {
+        const vec3 c = mat3_back(&m, v3_scale(1.0 / size, v3_sub(b[i].centre, u.centre)));
+        b[i] = (struct ball){c, b[i].r / size};
+        form->bounding = fmax(form->bounding, v3_norm(c) + b[i].r);
+    }
+}
+
+static void store(struct form *f, const struct ball *b, int n)
+{
+    f->n = n;
+    f->padded = (n + LANES - 1) / LANES * LANES;
+    double **const array[] = {&f->x, &f->y, &f->z, &f->r};
+    for (int a = 0; a < 4; a++)
+        *array[a] = xalloc((size_t)f->padded, sizeof(double));
+    f->ball = xalloc((size_t)n, sizeof *f->ball);
+    for (int i = 0; i < f->padded; i++) {
+        const struct ball one = i < n ? b[i] : (struct ball){{0.0, 0.0, 0.0}, -1e6};
+        f->x[i] = one.centre.x;
+        f->y[i] = one.centre.y;
+        f->z[i] = one.centre.z;
+        f->r[i] = one.r;
+        if (i < n)
+            f->ball[i] = (struct shape_ball){one.centre, one.r};
+    }
+}
+
+static void init(struct scene *scene, const struct grains *g, struct shape_form *out)
+{
+    int largest = 1;
+    n_forms = g->n_species;
+    forms = xalloc((size_t)n_forms + 1, sizeof *forms);
+    for (int k = 0; k < n_forms; k++) {
+        int n = 1;
+        struct ball *const b = read_balls(scene, g->species[k].name, &n);
+        n = drop_inner(b, n);
+        forms[k].form = out[k];
+        find_form(&forms[k], b, n);
+        store(&forms[k], b, n);
+        forms[k].as_ball = b;
+        largest = n > largest ? n : largest;
+    }
+    for (int k = 0; k < n_forms; k++) {
+        const char *const name = g->species[k].name;
+        const int n = forms[k].n, pairs = n * largest < 256 ? n * largest : 256;
+        const int usual = 2 * n + 4 < 64 ? 2 * n + 4 : 64;
+        forms[k].form.points_most = pairs < usual ? pairs : usual;
+        if (!scene_word(scene, "grains", name, "contacts_most", "auto"))
+            forms[k].form.points_most = (int)scene_real(scene, "grains", name, "contacts_most");
+        out[k] = forms[k].form;
+    }
+}
+
+static void release(void)
+{
+    for (int k = 0; k < n_forms; k++) {
+        void *const all[] = {forms[k].x, forms[k].y,    forms[k].z,
+                             forms[k].r, forms[k].ball, forms[k].as_ball};
+        for (size_t a = 0; a < sizeof all / sizeof all[0]; a++)
+            xfree(all[a]);
+    }
+    xfree(forms);
+    forms = NULL;
+    n_forms = 0;
+}
+
+/* Spheres of j as seen from x_i, SPHERES_WIDE at a time. */
+enum { WIDE = 64 };
+
+struct seen_spheres {
+    _Alignas(64) double x[WIDE], y[WIDE], z[WIDE], r[WIDE];
+};
+
+static void place(const struct form *f, const struct shape_pose *p, int from, int n,
+                  struct seen_spheres *s)
+{
+    const struct mat3 m = p->turn;
+    const double size = p->size;
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        const double x = size * f->x[from + k], y = size * f->y[from + k],
+                     z = size * f->z[from + k];
+        s->x[k] = m.row[0].x * x + m.row[0].y * y + m.row[0].z * z + p->centre.x;
+        s->y[k] = m.row[1].x * x + m.row[1].y * y + m.row[1].z * z + p->centre.y;
+        s->z[k] = m.row[2].x * x + m.row[2].y * y + m.row[2].z * z + p->centre.z;
+        s->r[k] = size * f->r[from + k];
+    }
+}
+
+/* Touches of sphere a of i, at `c` with radius r, with n spheres of j from `from` on. */
+static int touch(const struct shape_pair *p, const struct form *j, int a, vec3 c, double r,
+                 const struct seen_spheres *s, int from, int n, int most, int count,
+                 struct shape_point *out)
+{
+    unsigned char near[WIDE];
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        const double x = c.x - s->x[k], y = c.y - s->y[k], z = c.z - s->z[k];
+        const double cut = r + s->r[k] + p->reach;
+        near[k] = (x * x + y * y + z * z < cut * cut) & (cut > 0.0);
+    }
+    for (int k = 0; k < n; k++) {
+        if (!near[k])
+            continue;
+        const vec3 at = v3(s->x[k], s->y[k], s->z[k]);
+        if (count < most)
+            out[count] = shape_balls_meet(c, r, v3_sub(at, p->j.centre), s->r[k], v3_sub(c, at),
+                                          a * j->n + from + k);
+        count++;
+    }
+    return count;
+}
+
+static int points(const struct shape_pair *p, int most, struct shape_point *out)
+{
+    const struct form *const i = &forms[p->i.species], *const j = &forms[p->j.species];
+    const double bound = p->j.size * j->form.bounding + p->reach;
+    int count = 0;
+    for (int from = 0; from < j->padded; from += WIDE) {
+        const int n = j->padded - from < WIDE ? j->padded - from : WIDE;
+        struct seen_spheres s;
+        place(j, &p->j, from, n, &s);
+        for (int a = 0; a < i->n; a++) {
+            const vec3 c = mat3_turn(&p->i.turn, v3_scale(p->i.size, i->ball[a].centre));
+            const double r = p->i.size * i->ball[a].radius;
+            const vec3 d = v3_sub(c, p->j.centre);
+            if (v3_dot(d, d) < (bound + r) * (bound + r))
+                count = touch(p, j, a, c, r, &s, from, n, most, count, out);
+        }
+    }
+    return count;
+}
+
+static const struct shape_ball *balls(int species, int *n)
+{
+    *n = forms[species].n;
+    return forms[species].ball;
+}
+
+const struct shape shape = {
+    .path = &contact_points, .init = init, .free = release, .points = points, .balls = balls};

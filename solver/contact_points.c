@@ -1,0 +1,448 @@
+/* contact_points.c - contacts of grains of any shape: a slot has as many as the shape finds.
+ *
+ * The points of pair after pair are packed into blocks and go through the same laws as those of
+ * spheres. A contact finds its memory by its id among the records of its slot; one whose id is new
+ * takes the nearest record that has just been left, if that contact was close by: so friction
+ * survives when a vertex rolls over an edge. */
+#include "contact_points.h"
+
+#include "turning.h"
+
+#define CLOSE 0.1 /* of the size: a new contact goes on with the memory of one this near */
+
+struct cut points_cut(const struct sim *s)
+{
+    struct cut c = {.rows = laws_rows(), .first = (shape.memory + 3) / 4 * 4, .most = 1};
+    for (int k = 0; k < s->grains.n_species; k++) {
+        const int most = s->grains.species[k].form.points_most;
+        c.most = most > c.most ? most : c.most;
+    }
+    if (c.most > POINTS_MOST)
+        c.most = POINTS_MOST;
+    return c;
+}
+
+static int rows(const struct sim *s)
+{
+    const struct cut c = points_cut(s);
+    return c.first + c.most * (RECORD_HEAD + c.rows);
+}
+
+struct shape_pose points_pose(const struct sim *s, int i)
+{
+    const struct grains *const g = &s->grains;
+    const int kind = g->kind[i];
+    return (struct shape_pose){.species = kind,
+                               .size = g->radius[i] / g->species[kind].form.bounding,
+                               .q = g->orientation[i],
+                               .turn = quat_matrix(g->orientation[i])};
+}
+
+int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
+{
+    const struct shape_point *const p = o->p;
+    const struct body *const body = &s->bodies[o->i];
+    const int c = b->n++;
+    struct touch *const t = &b->t;
+    struct levers *const l = &b->l;
+    b->slot[c] = o->slot;
+    b->c.i[c] = o->i;
+    b->c.j[c] = o->j;
+    b->memory[c] = o->record + RECORD_HEAD;
+    b->was[c] = o->was;
+    b->scale[c] = (real)p->scale;
+    t->depth[c] = (real)p->depth;
+    t->nx[c] = (real)p->normal.x;
+    t->ny[c] = (real)p->normal.y;
+    t->nz[c] = (real)p->normal.z;
+    t->r_i[c] = (real)p->r_i;
+    t->r_j[c] = (real)p->r_j;
+    l->ix[c] = (real)p->at_i.x;
+    l->iy[c] = (real)p->at_i.y;
+    l->iz[c] = (real)p->at_i.z;
+    l->jx[c] = (real)p->at_j.x;
+    l->jy[c] = (real)p->at_j.y;
+    l->jz[c] = (real)p->at_j.z;
+    b->px[c] = body->spin[0];
+    b->py[c] = body->spin[1];
+    b->pz[c] = body->spin[2];
+    return c;
+}
+
+/* Velocities of i less those of j, at the half step and at the full one. */
+static void enter_pair(const struct sim *s, struct block *b, const struct point_of *o)
+{
+    const struct grains *const g = &s->grains;
+    const int c = points_enter(s, b, o);
+    const struct body *const i = &s->bodies[o->i], *const j = &s->bodies[o->j];
+    const vec3 more = v3_sub(v3_cross(g->full_spin[o->i], o->p->from_i),
+                             v3_cross(g->full_spin[o->j], o->p->from_j));
+    b->t.vx[c] = i->vel[0] - j->vel[0];
+    b->t.vy[c] = i->vel[1] - j->vel[1];
+    b->t.vz[c] = i->vel[2] - j->vel[2];
+    b->vx[c] = i->full[0] - j->full[0] + (real)more.x;
+    b->vy[c] = i->full[1] - j->full[1] + (real)more.y;
+    b->vz[c] = i->full[2] - j->full[2] + (real)more.z;
+    b->qx[c] = j->spin[0];
+    b->qy[c] = j->spin[1];
+    b->qz[c] = j->spin[2];
+    b->inv_m[c] = i->vel[3] + j->vel[3];
+    b->c.wall[c] = NULL;
+    b->t.pair[c] = (int)i->full[3] * g->n_materials + (int)j->full[3];
+}
+
+/* Lanes without a contact of their own repeat the last one. */
+static void pad(struct block *b)
+{
+    struct touch *const t = &b->t;
+    const int last = b->n - 1;
+    int n = b->n;
+    for (; n % TOUCH_LANES != 0; n++) {
+        real *const array[] = {t->depth, t->nx,   t->ny,   t->nz,   t->r_i,  t->r_j,  b->curve,
+                               b->inv_m, t->vx,   t->vy,   t->vz,   b->vx,   b->vy,   b->vz,
+                               b->px,    b->py,   b->pz,   b->qx,   b->qy,   b->qz,   b->l.ix,
+                               b->l.iy,  b->l.iz, b->l.jx, b->l.jy, b->l.jz, b->scale};
+        for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
+            array[k][n] = array[k][last];
+        b->slot[n] = b->slot[last];
+        b->c.i[n] = b->c.i[last];
+        b->c.j[n] = b->c.j[last];
+        b->c.wall[n] = b->c.wall[last];
+        b->memory[n] = b->memory[last];
+        b->was[n] = b->was[last];
+        t->pair[n] = t->pair[last];
+    }
+    b->c.n = t->n = n;
+}
+
+/* Where j is flat. */
+static void reduce_flat(struct block *b)
+{
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++)
+        if (t->r_j[c] == (real)0.0) {
+            t->m_eff[c] = 1.0 / b->inv_m[c];
+            t->r_eff[c] = t->r_i[c] / (1.0 + (b->walls ? b->curve[c] * t->r_i[c] : 0.0));
+        }
+}
+
+static void starts(struct block *b)
+{
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++)
+        t->start[c] = !b->was[c] && t->depth[c] > (real)0.0 ? laws_first_part(t, c) : (real)1.0;
+}
+
+static void load_memory(struct block *b, int law_rows)
+{
+    for (int c = 0; c < b->t.n; c++)
+        for (int k = 0; k < law_rows; k++)
+            b->history[k][c] = b->memory[c][k];
+}
+
+static void keep(struct block *b, int law_rows)
+{
+    for (int c = 0; c < b->n; c++)
+        for (int k = 0; k < law_rows; k++)
+            b->memory[c][k] = b->history[k][c];
+}
+
+static void guard(const struct block *b, real most, struct report *r)
+{
+    for (int c = 0; c < b->n; c++)
+        if (b->t.depth[c] > most * b->scale[c]) {
+            r->too_deep = true;
+            r->i = b->c.i[c];
+            r->j = b->walls ? -1 - b->wall[c] : b->c.j[c];
+            r->deep = (double)(b->t.depth[c] / b->scale[c]);
+        }
+    r->too_deep = r->too_deep || r->points > 0;
+}
+
+/* Tells of the first run that has something to tell. */
+static void stop(const struct sim *s)
+{
+    for (int run = 0; run < s->neighbours.runs; run++) {
+        const struct report *const r = &s->contacts->report[run];
+        if (r->points > 0)
+            die(EXIT_UNSTABLE,
+                "two bodies touch at %d points, more than there is room for (%d), at t = %.9g "
+                "s: "
+                "they overlap too much, or the shape needs more points",
+                r->points, points_cut(s).most, s->t);
+        if (r->too_deep)
+            contact_die(s, r->i, r->j, r->deep);
+    }
+}
+
+/* Room in a slot for the contacts that someone looks at. */
+struct kept {
+    int n;
+    struct seen seen[];
+};
+
+static size_t seen_size(const struct sim *s)
+{
+    return sizeof(struct kept) + (size_t)points_cut(s).most * sizeof(struct seen);
+}
+
+static struct kept *kept_of(const struct sim *s, bool walls, int slot)
+{
+    return (struct kept *)((char *)s->contacts->seen[walls] + (size_t)slot * seen_size(s));
+}
+
+void points_forget_seen(const struct sim *s, bool walls, int slot)
+{
+    if (s->contacts->watched)
+        kept_of(s, walls, slot)->n = 0;
+}
+
+static void note_seen(const struct sim *s, const struct block *b, int c)
+{
+    const struct touch *const t = &b->t;
+    const struct levers *const l = &b->l;
+    struct kept *const kept = kept_of(s, b->walls, b->slot[c]);
+    const double4 f = laws_force(b, c);
+    const int i = b->c.i[c];
+    struct seen *const v = &kept->seen[kept->n++];
+    const vec3 arm_i = v3((double)l->ix[c], (double)l->iy[c], (double)l->iz[c]);
+    const vec3 arm_j = v3((double)l->jx[c], (double)l->jy[c], (double)l->jz[c]);
+    v->i = i;
+    v->j = b->walls ? -1 : b->c.j[c];
+    v->wall = b->walls ? b->wall[c] : -1;
+    v->point = v3_add(s->grains.pos[i], arm_i);
+    v->branch = b->walls ? v3_scale(-1.0, arm_i) : v3_sub(arm_j, arm_i);
+    v->normal = v3((double)t->nx[c], (double)t->ny[c], (double)t->nz[c]);
+    v->force = v3(f[0], f[1], f[2]);
+    v->normal_force = v3_dot(v->force, v->normal);
+    v->depth = (double)t->depth[c];
+}
+
+static void report_all(const struct sim *s, struct block *b, struct report *r)
+{
+    r->energy += laws_energy(b, s->neighbours.reach);
+    for (int c = 0; c < b->n; c++) {
+        const double depth = (double)b->t.depth[c];
+        r->touching += depth > 0.0;
+        r->overlap = fmax(r->overlap, depth / (double)b->scale[c]);
+        if (s->contacts->watched)
+            note_seen(s, b, c);
+    }
+}
+
+void points_work(struct sim *s, struct block *b, const struct target *to)
+{
+    struct slots *const l = b->walls ? &s->neighbours.walls : &s->neighbours.pairs;
+    const int law_rows = laws_rows();
+    if (b->n == 0)
+        return;
+    pad(b);
+    laws_reduce(b);
+    reduce_flat(b);
+    b->t.dt = s->run.dt;
+    b->t.time = to->time;
+    laws_velocities(b);
+    starts(b);
+    load_memory(b, law_rows);
+    laws_apply(s, b);
+    laws_note_broken(s, b, l, to->time);
+    keep(b, law_rows);
+    laws_pack(b);
+    guard(b, (real)s->run.overlap_max, to->report);
+    if (to->asked)
+        report_all(s, b, to->report);
+    if (b->walls)
+        laws_add_walls(b, to);
+    else
+        laws_add(b, s->neighbours.to, to);
+    if (!b->walls && s->grains.n_frozen > 0)
+        laws_add_skeleton(&s->grains, b, to->report);
+    b->n = 0;
+}
+
+/* Which record each of n points goes on with; -1 for none. */
+static void match(const struct cut *cut, real *memory, const struct shape_point *p,
+                  const vec3 *place, int n, double close, int *record)
+{
+    bool taken[POINTS_MOST] = {false};
+    for (int k = 0; k < n; k++) {
+        record[k] = -1;
+        for (int r = 0; r < cut->most && record[k] < 0; r++)
+            if (record_id(points_record(cut, memory, r)) == p[k].id)
+                record[k] = r;
+        if (record[k] >= 0)
+            taken[record[k]] = true;
+    }
+    for (int k = 0; k < n; k++) {
+        double nearest = close * close;
+        if (record[k] >= 0)
+            continue;
+        for (int r = 0; r < cut->most; r++) {
+            const real *const at = points_record(cut, memory, r);
+            const vec3 d = v3_sub(place[k], v3((double)at[1], (double)at[2], (double)at[3]));
+            if (taken[r] || at[0] == (real)0.0 || v3_dot(d, d) >= nearest)
+                continue;
+            nearest = v3_dot(d, d);
+            record[k] = r;
+        }
+        if (record[k] >= 0)
+            taken[record[k]] = true;
+    }
+    for (int r = 0; r < cut->most; r++) { /* contacts that ended */
+        real *const at = points_record(cut, memory, r);
+        if (!taken[r] && at[0] != (real)0.0)
+            memset(at, 0, (size_t)(RECORD_HEAD + cut->rows) * sizeof *at);
+    }
+}
+
+/* A free record; there is one, as n <= most. */
+static int free_record(const struct cut *cut, real *memory, int from)
+{
+    while (points_record(cut, memory, from)[0] != (real)0.0)
+        from++;
+    return from;
+}
+
+/* Finds the memory of a slot's points and enters them. */
+static void enter_points(struct sim *s, struct block *b, const struct cut *cut, int slot,
+                         const struct shape_pair *pair, const struct shape_point *p, int n,
+                         const struct target *to)
+{
+    struct slots *const l = &s->neighbours.pairs;
+    real *const memory = &l->memory[(size_t)slot * s->neighbours.rows];
+    vec3 place[POINTS_MOST];
+    int record[POINTS_MOST];
+    int next = 0;
+    bool overlaps = false;
+    for (int k = 0; k < n; k++)
+        place[k] = mat3_back(&pair->i.turn, p[k].at_i);
+    match(cut, memory, p, place, n, CLOSE * fmin(pair->i.size, pair->j.size), record);
+    for (int k = 0; k < n; k++) {
+        const bool new = record[k]<0, over = p[k].depth> 0.0;
+        if (new)
+            record[k] = next = free_record(cut, memory, next);
+        real *const at = points_record(cut, memory, record[k]);
+        const struct point_of o = {.slot = slot,
+                                   .i = l->owner[slot],
+                                   .j = l->other[slot],
+                                   .record = at,
+                                   .was = record_overlapped(at),
+                                   .p = &p[k]};
+        at[0] = (real)(2 * (p[k].id + 1) + over);
+        at[1] = (real)place[k].x;
+        at[2] = (real)place[k].y;
+        at[3] = (real)place[k].z;
+        overlaps = overlaps || over;
+        enter_pair(s, b, &o);
+        if (b->n == TOUCH)
+            points_work(s, b, to);
+    }
+    l->live[slot] = overlaps ? LIVE_OVERLAP : n > 0 || shape.memory > 0 ? LIVE_REACH : 0;
+}
+
+/* m; x_i - x_j by the nearest image, as the loop of spheres has it. */
+static vec3 apart(const struct sim *s, int i, int j)
+{
+    const struct frame *const f = &s->frame;
+    const real8 d = body_apart(&s->bodies[i], &s->bodies[j]);
+    real x[3];
+    for (int a = 0; a < 3; a++) {
+        x[a] = d[a] * f->scale[a];
+        x[a] = fma(-f->image[a], rint(x[a] * f->inv_image[a]), x[a]);
+    }
+    return v3((double)x[0], (double)x[1], (double)x[2]);
+}
+
+/* The points within reach of a law; too many of them stop the run. */
+static int find(const struct sim *s, const struct cut *cut, const struct shape_pair *pair,
+                struct shape_point *p, struct report *r)
+{
+    const double reach = s->neighbours.reach;
+    const int found = shape.points(pair, cut->most, p);
+    const int n = found < cut->most ? found : cut->most;
+    int near = 0;
+    if (found > cut->most && found > r->points)
+        r->points = found;
+    for (int k = 0; k < n; k++)
+        if (p[k].depth > -reach)
+            p[near++] = p[k];
+    return near;
+}
+
+static void leave(const struct sim *s, struct slots *l, int slot)
+{
+    if (!l->live[slot])
+        return;
+    l->live[slot] = 0;
+    memset(&l->memory[(size_t)slot * s->neighbours.rows], 0,
+           (size_t)s->neighbours.rows * sizeof *l->memory);
+}
+
+static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
+                       const struct target *to)
+{
+    const struct cut cut = points_cut(s);
+    const struct grains *const g = &s->grains;
+    struct slots *const l = &s->neighbours.pairs;
+    struct shape_point p[POINTS_MOST];
+    struct shape_pair pair = {.reach = s->neighbours.reach};
+    int before = -1;
+    b->n = 0;
+    b->walls = false;
+    for (int k = 0; k < count; k++) {
+        const int i = l->owner[slot[k]], j = l->other[slot[k]];
+        const vec3 d = apart(s, i, j);
+        const double cut_off = g->radius[i] + g->radius[j] + pair.reach;
+        if (to->asked)
+            points_forget_seen(s, false, slot[k]);
+        if (v3_dot(d, d) >= cut_off * cut_off) {
+            leave(s, l, slot[k]);
+            continue;
+        }
+        if (i != before)
+            pair.i = points_pose(s, i);
+        before = i;
+        pair.j = points_pose(s, j);
+        pair.j.centre = v3_scale(-1.0, d);
+        pair.memory = &l->memory[(size_t)slot[k] * s->neighbours.rows];
+        const int n = find(s, &cut, &pair, p, to->report);
+        if (n > 0 || l->live[slot[k]] || shape.memory > 0)
+            enter_points(s, b, &cut, slot[k], &pair, p, n, to);
+    }
+    points_work(s, b, to);
+    to->report->too_deep = to->report->too_deep || to->report->points > 0;
+}
+
+static size_t view_list(const struct sim *s, bool walls, struct seen *out)
+{
+    const struct slots *const l = walls ? &s->neighbours.walls : &s->neighbours.pairs;
+    size_t n = 0;
+    for (size_t slot = 0; slot < l->n; slot++) {
+        if (!l->live[slot])
+            continue;
+        const struct kept *const kept = kept_of(s, walls, (int)slot);
+        for (int k = 0; k < kept->n && out; k++)
+            out[n + (size_t)k] = kept->seen[k];
+        n += (size_t)kept->n;
+    }
+    return n;
+}
+
+static void view(const struct sim *s, struct contact_view *v)
+{
+    v->n = 0;
+    if (s->neighbours.builds == 0)
+        return;
+    const size_t pairs = view_list(s, false, NULL);
+    contact_view_reserve(v, pairs + view_list(s, true, NULL));
+    view_list(s, false, v->seen);
+    view_list(s, true, v->seen + pairs);
+}
+
+const struct contact_path contact_points = {.rows = rows,
+                                            .pairs = work_pairs,
+                                            .walls = points_walls,
+                                            .view = view,
+                                            .seen_size = seen_size,
+                                            .stop = stop,
+                                            .turning = &turning};

@@ -1,0 +1,64 @@
+/* contact_points.h - any number of contacts in a slot: what pairs and walls have in common.
+ *
+ * The memory of a slot: shape.memory reals of the shape, then a number of records, one for each
+ * contact that there may be: RECORD_HEAD reals - a code, zero for a free record, else made of the id
+ * of the contact and of whether it overlapped; its place in the frame of the slot's owner - and the
+ * rows of the laws. */
+#ifndef CONTACT_POINTS_H
+#define CONTACT_POINTS_H
+
+#include "contact_laws.h"
+#include "contact_loop.h"
+#include "contact_path.h"
+#include "contact_view.h"
+#include "sim.h"
+
+enum { RECORD_HEAD = 4, POINTS_MOST = 256 };
+
+/* How the memory of slots is cut. */
+struct cut {
+    int first; /* record, in reals from the start of the slot's memory */
+    int rows;  /* of the laws */
+    int most;  /* records */
+};
+
+struct cut points_cut(const struct sim *s);
+
+static inline real *points_record(const struct cut *c, real *memory, int k)
+{
+    return memory + c->first + k * (RECORD_HEAD + c->rows);
+}
+
+static inline int record_id(const real *record)
+{
+    return (int)record[0] / 2 - 1; /* -1: free */
+}
+
+static inline bool record_overlapped(const real *record)
+{
+    return (int)record[0] % 2 == 1;
+}
+
+/* A contact of a block that is being filled. */
+struct point_of {
+    int slot, i, j; /* j = i: a wall */
+    real *record;
+    bool was; /* it overlapped at the step before */
+    const struct shape_point *p;
+};
+
+struct shape_pose points_pose(const struct sim *s, int i);
+
+/* What pairs and walls write alike: geometry, memory, masses, the spin of i. Returns its lane. */
+int points_enter(const struct sim *s, struct block *b, const struct point_of *o);
+
+/* Works what is in the block, and empties it. */
+void points_work(struct sim *s, struct block *b, const struct target *to);
+
+/* Someone looks at single contacts, and a slot is worked anew. */
+void points_forget_seen(const struct sim *s, bool walls, int slot);
+
+/* The wall slots of a run (contact_points_walls.c). */
+void points_walls(struct sim *s, int run, struct block *b, const struct target *to);
+
+#endif

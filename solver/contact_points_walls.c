@@ -1,0 +1,371 @@
+/* contact_points_walls.c - grains of any shape against walls of every kind.
+ *
+ * A shape touches walls with its balls (shape.h): each of them meets the elements of the walls as a
+ * sphere would (contact_facing.h). A convex body without vertices meets an element by a ball of
+ * INSET of its size that touches its surface from within at the point that lies deepest: n, the
+ * direction from the element's nearest point to the ball, and the farthest point of the body along
+ * -n are found by turns. What an edge of a wall does to a face or edge of the body comes from the
+ * shape (facet). A contact that goes over to another element takes its memory along. */
+#include <string.h>
+#include "contact_facing.h"
+#include "contact_points.h"
+
+#define SAME  1e-6 /* of the size: points nearer than this coincide */
+#define CLOSE 0.1  /* of the size: as in contact_points.c */
+#define INSET 0.25
+
+/* A contact with an element, or one that may be. */
+struct meeting {
+    struct facing f;
+    struct shape_point p;
+    vec3 place;   /* m, of the contact in the body's frame */
+    real *record; /* NULL: none yet */
+    bool new;
+};
+
+/* The meetings of a grain. */
+struct meetings {
+    int n, room;
+    struct meeting *m;
+};
+
+/* The active wall slots of a grain. */
+struct around {
+    int i, n;
+    const int *slot;
+    struct shape_pose pose;
+};
+
+static void grow(struct meetings *all)
+{
+    const int more = 2 * all->room + 32;
+    all->m = xrealloc(all->m, (size_t)all->room, (size_t)more, sizeof *all->m);
+    all->room = more;
+}
+
+/* Adds what a ball meets: of the elements from `from` on, those that count. */
+static void meet(const struct sim *s, struct meetings *all, const struct around *a,
+                 struct facing *f, int n, double radius, vec3 centre, int id)
+{
+    const double reach = radius + s->neighbours.reach;
+    for (int k = 0; k < n; k++) {
+        if (!(f[k].distance < reach) || facing_hidden(s, f, n, k, SAME * a->pose.size))
+            continue;
+        if (all->n == all->room)
+            grow(all);
+        const vec3 normal = v3_scale(1.0 / f[k].distance, f[k].away);
+        const vec3 at = v3_axpy(centre, 0.5 * (radius - f[k].distance) - radius, normal);
+        all->m[all->n++] = (struct meeting){.f = f[k],
+                                            .p = {.id = id,
+                                                  .depth = radius - f[k].distance,
+                                                  .normal = normal,
+                                                  .at_i = at,
+                                                  .from_i = centre,
+                                                  .r_i = radius,
+                                                  .scale = radius},
+                                            .place = mat3_back(&a->pose.turn, at)};
+    }
+}
+
+/* How near a ball of radius r at `centre` (from x_i) may come to a convex element that is seen from
+ * x_i: a plane through its nearest point parts it from x_i. */
+static bool near_enough(const struct facing *seen, vec3 centre, double reach)
+{
+    if (seen->curvature < 0.0)
+        return seen->distance - v3_norm(centre) < reach;
+    return seen->distance + v3_dot(seen->away, centre) / seen->distance < reach;
+}
+
+static void meet_balls(const struct sim *s, struct meetings *all, const struct around *a,
+                       const struct facing *seen, struct facing *f)
+{
+    const vec3 x = s->grains.pos[a->i];
+    int balls = 0;
+    const struct shape_ball *const ball = shape.balls(a->pose.species, &balls);
+    for (int q = 0; q < balls; q++) {
+        const vec3 c = mat3_turn(&a->pose.turn, v3_scale(a->pose.size, ball[q].centre));
+        const double r = a->pose.size * ball[q].radius;
+        int n = 0;
+        for (int k = 0; k < a->n; k++)
+            if (near_enough(&seen[k], c, r + s->neighbours.reach))
+                f[n++] = facing_look(s, seen[k].slot, s->neighbours.walls.other[seen[k].slot],
+                                     v3_add(x, c));
+        meet(s, all, a, f, n, r, c, q);
+    }
+}
+
+/* The inset ball of a convex body that lies deepest in an element: its centre from x_i. */
+static vec3 deepest(const struct sim *s, const struct around *a, const struct facing *seen,
+                    double inset, double *radius, struct facing *f)
+{
+    enum { MOST = 60 };
+    const vec3 x = s->grains.pos[a->i];
+    const int element = s->neighbours.walls.other[seen->slot];
+    vec3 n = v3_scale(1.0 / seen->distance, seen->away), c = v3(0.0, 0.0, 0.0);
+    for (int k = 0; k < MOST; k++) {
+        c = v3_axpy(shape.support(&a->pose, v3_scale(-1.0, n), radius), inset, n);
+        *f = facing_look(s, seen->slot, element, v3_add(x, c));
+        const vec3 change = v3_sub(v3_scale(1.0 / f->distance, f->away), n);
+        /* over an edge the point runs ahead of the normal by the ratio of their radii */
+        const double part =
+            f->part == WALL_FACE ? 1.0 : 1.0 / (1.0 + fmax(0.0, *radius - inset) / f->distance);
+        n = v3_axpy(n, part, change);
+        n = v3_scale(1.0 / v3_norm(n), n);
+        if (v3_dot(change, change) < 1e-26)
+            break;
+    }
+    return c;
+}
+
+static void meet_convex(const struct sim *s, struct meetings *all, const struct around *a,
+                        const struct facing *seen, struct facing *f)
+{
+    const double inset = INSET * a->pose.size;
+    double *const radius = xalloc((size_t)a->n + 1, sizeof *radius);
+    for (int k = 0; k < a->n; k++)
+        deepest(s, a, &seen[k], inset, &radius[k], &f[k]);
+    const int before = all->n;
+    for (int k = 0; k < a->n; k++) {
+        struct facing own = f[k];
+        if (!(own.distance < inset + s->neighbours.reach) ||
+            facing_hidden(s, f, a->n, k, SAME * a->pose.size))
+            continue;
+        const vec3 c = v3_sub(own.centre, s->grains.pos[a->i]);
+        meet(s, all, a, &own, 1, inset, c, 0);
+        struct shape_point *const p = &all->m[all->n - 1].p;
+        p->r_i = radius[k];
+        p->scale = a->pose.size;
+    }
+    for (int k = before; k < all->n; k++)
+        all->m[k].p.id = 0;
+    xfree(radius);
+}
+
+static void meet_facets(const struct sim *s, struct meetings *all, const struct around *a,
+                        const struct facing *seen, int most)
+{
+    struct shape_point p[POINTS_MOST];
+    const double reach = s->neighbours.reach;
+    for (int k = 0; k < a->n; k++) {
+        const int element = s->neighbours.walls.other[seen[k].slot];
+        struct shape_facet facet;
+        facet.n = wall_corners(s, element, s->grains.pos[a->i], facet.corner);
+        if (facet.n == 0)
+            continue;
+        const vec3 n = v3_cross(v3_sub(facet.corner[1], facet.corner[0]),
+                                v3_sub(facet.corner[2], facet.corner[0]));
+        const double side = v3_dot(n, facet.corner[0]) > 0.0 ? -1.0 : 1.0;
+        facet.normal = v3_scale(side / v3_norm(n), n);
+        const int found = shape.facet(&a->pose, &facet, reach, most, p);
+        for (int m = 0; m < found && m < most; m++) {
+            if (!(p[m].depth > -reach))
+                continue;
+            if (all->n == all->room)
+                grow(all);
+            all->m[all->n++] = (struct meeting){
+                .f = seen[k], .p = p[m], .place = mat3_back(&a->pose.turn, p[m].at_i)};
+        }
+    }
+}
+
+/* Whether some meeting goes on with this record. */
+static bool goes_on(const struct meetings *all, const real *record)
+{
+    for (int k = 0; k < all->n; k++)
+        if (all->m[k].record == record)
+            return true;
+    return false;
+}
+
+static void find_own(const struct sim *s, const struct cut *cut, struct meetings *all)
+{
+    const struct slots *const l = &s->neighbours.walls;
+    for (int k = 0; k < all->n; k++) {
+        struct meeting *const m = &all->m[k];
+        real *const memory = &l->memory[(size_t)m->f.slot * s->neighbours.rows];
+        for (int r = 0; r < cut->most && !m->record; r++) {
+            real *const at = points_record(cut, memory, r);
+            if (record_id(at) == m->p.id && !goes_on(all, at))
+                m->record = at;
+        }
+        m->new = !m->record;
+    }
+}
+
+/* A record of a contact that ended, near the new one on the same wall. */
+static real *left_near(const struct sim *s, const struct cut *cut, const struct meetings *all,
+                       const struct around *a, const struct meeting *m)
+{
+    const struct slots *const l = &s->neighbours.walls;
+    double nearest = CLOSE * a->pose.size * (CLOSE * a->pose.size);
+    real *best = NULL;
+    for (int k = 0; k < a->n; k++) {
+        if (s->walls.wall_of[l->other[a->slot[k]]] != m->f.wall || !l->live[a->slot[k]])
+            continue;
+        real *const memory = &l->memory[(size_t)a->slot[k] * s->neighbours.rows];
+        for (int r = 0; r < cut->most; r++) {
+            real *const at = points_record(cut, memory, r);
+            const vec3 d = v3_sub(m->place, v3((double)at[1], (double)at[2], (double)at[3]));
+            if (at[0] == (real)0.0 || v3_dot(d, d) >= nearest || goes_on(all, at))
+                continue;
+            nearest = v3_dot(d, d);
+            best = at;
+        }
+    }
+    return best;
+}
+
+/* Gives every meeting a record of its slot; what has ended is cleared. */
+static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
+                     const struct around *a, struct report *report)
+{
+    const struct slots *const l = &s->neighbours.walls;
+    const size_t size = (size_t)(RECORD_HEAD + cut->rows);
+    real *const taken = xalloc((size_t)all->n * size + 1, sizeof *taken);
+    find_own(s, cut, all);
+    for (int k = 0; k < all->n; k++) {
+        real *const from = all->m[k].new ? left_near(s, cut, all, a, &all->m[k]) : NULL;
+        if (!from)
+            continue;
+        memcpy(&taken[(size_t)k * size], from, size * sizeof *from);
+        memset(from, 0, size * sizeof *from);
+    }
+    for (int k = 0; k < a->n; k++) {
+        real *const memory = &l->memory[(size_t)a->slot[k] * s->neighbours.rows];
+        for (int r = 0; r < cut->most && l->live[a->slot[k]]; r++) {
+            real *const at = points_record(cut, memory, r);
+            if (at[0] != (real)0.0 && !goes_on(all, at))
+                memset(at, 0, size * sizeof *at);
+        }
+    }
+    for (int k = 0; k < all->n; k++) {
+        struct meeting *const m = &all->m[k];
+        real *const memory = &l->memory[(size_t)m->f.slot * s->neighbours.rows];
+        int r = 0;
+        if (!m->new)
+            continue;
+        while (r < cut->most && points_record(cut, memory, r)[0] != (real)0.0)
+            r++;
+        if (r == cut->most) { /* no room: the run stops */
+            report->points = cut->most + 1;
+            continue;
+        }
+        m->record = points_record(cut, memory, r);
+        memcpy(m->record, &taken[(size_t)k * size], size * sizeof *taken);
+        if (m->record[0] == (real)0.0)
+            m->record[0] = (real)2.0; /* in use, did not overlap */
+    }
+    xfree(taken);
+}
+
+static void enter(struct sim *s, struct block *b, int i, struct meeting *m)
+{
+    const struct wall *const w = &s->walls.wall[m->f.wall];
+    const struct body *const body = &s->bodies[i];
+    const struct point_of o = {.slot = m->f.slot,
+                               .i = i,
+                               .j = i,
+                               .record = m->record,
+                               .was = record_overlapped(m->record),
+                               .p = &m->p};
+    /* pivot to x_i, to the contact */
+    const vec3 arm = v3_sub(m->f.arm, v3_sub(m->f.centre, s->grains.pos[i]));
+    const vec3 lever = v3_add(arm, m->p.at_i);
+    const vec3 own = v3_cross(s->grains.full_spin[i], m->p.from_i);
+    vec3 half = w->motion.surface, full = half, spin = v3(0.0, 0.0, 0.0);
+    const int c = points_enter(s, b, &o);
+    if (w->motion.moves && !s->walls.still) {
+        const struct wall_pose *const p = &w->pose;
+        half = v3_add(half, v3_add(p->half, v3_cross(p->half_spin, lever)));
+        full = v3_add(full, v3_add(p->velocity, v3_cross(p->spin, lever)));
+        spin = p->half_spin;
+        if (!m->new)
+            facing_turn(s, &m->f, w, m->record + RECORD_HEAD);
+    }
+    m->record[0] = (real)(2 * (m->p.id + 1) + (m->p.depth > 0.0));
+    m->record[1] = (real)m->place.x;
+    m->record[2] = (real)m->place.y;
+    m->record[3] = (real)m->place.z;
+    b->c.wall[c] = w;
+    b->wall[c] = m->f.wall;
+    b->arm[c] = arm;
+    b->curve[c] = m->f.curvature == 0.0
+                      ? 0.0
+                      : (real)(1.0 / facing_matched(m->p.r_i, m->f.curvature) - 1.0 / m->p.r_i);
+    b->inv_m[c] = body->vel[3];
+    b->t.vx[c] = body->vel[0] - (real)half.x;
+    b->t.vy[c] = body->vel[1] - (real)half.y;
+    b->t.vz[c] = body->vel[2] - (real)half.z;
+    b->vx[c] = body->full[0] - (real)(full.x - own.x);
+    b->vy[c] = body->full[1] - (real)(full.y - own.y);
+    b->vz[c] = body->full[2] - (real)(full.z - own.z);
+    b->qx[c] = (real)spin.x;
+    b->qy[c] = (real)spin.y;
+    b->qz[c] = (real)spin.z;
+    b->t.pair[c] = (int)body->full[3] * s->grains.n_materials + w->material;
+}
+
+/* The wall contacts of one grain. */
+static void work_grain(struct sim *s, struct block *b, const struct cut *cut, struct around *a,
+                       struct meetings *all, const struct target *to)
+{
+    struct slots *const l = &s->neighbours.walls;
+    struct facing *const seen = xalloc(2 * (size_t)a->n + 1, sizeof *seen);
+    int near = 0, live = 0;
+    const vec3 x = s->grains.pos[a->i];
+    const double reach = s->grains.radius[a->i] + s->neighbours.reach;
+    struct around close = *a;
+    all->n = 0;
+    for (int k = 0; k < a->n; k++) {
+        seen[near] = facing_look(s, a->slot[k], l->other[a->slot[k]], x);
+        near += seen[near].distance < reach;
+        live += l->live[a->slot[k]] > 0;
+        if (to->asked)
+            points_forget_seen(s, true, a->slot[k]);
+    }
+    close.n = near;
+    if (near > 0) {
+        close.pose = a->pose = points_pose(s, a->i);
+        if (shape.balls)
+            meet_balls(s, all, &close, seen, seen + near);
+        else
+            meet_convex(s, all, &close, seen, seen + near);
+        if (shape.facet)
+            meet_facets(s, all, &close, seen, cut->most);
+    }
+    xfree(seen);
+    if (all->n == 0 && live == 0)
+        return;
+    remember(s, cut, all, a, to->report);
+    for (int k = 0; k < a->n; k++)
+        l->live[a->slot[k]] = 0;
+    for (int k = 0; k < all->n; k++) {
+        struct meeting *const m = &all->m[k];
+        const unsigned char now = m->p.depth > 0.0 ? LIVE_OVERLAP : LIVE_REACH;
+        if (!m->record)
+            continue;
+        l->live[m->f.slot] = now > l->live[m->f.slot] ? now : l->live[m->f.slot];
+        enter(s, b, a->i, m);
+        if (b->n == TOUCH)
+            points_work(s, b, to);
+    }
+}
+
+void points_walls(struct sim *s, int run, struct block *b, const struct target *to)
+{
+    const struct slots *const l = &s->neighbours.walls;
+    const int *const active = &l->active[l->begin[to->first]];
+    const struct cut cut = points_cut(s);
+    struct meetings all = {0};
+    b->n = 0;
+    b->walls = true;
+    for (int k = 0; k < l->n_active[run];) {
+        struct around a = {.i = l->owner[active[k]], .slot = &active[k]};
+        while (k < l->n_active[run] && l->owner[active[k]] == a.i)
+            a.n++, k++;
+        work_grain(s, b, &cut, &a, &all, to);
+    }
+    points_work(s, b, to);
+    to->report->too_deep = to->report->too_deep || to->report->points > 0;
+    xfree(all.m);
+}
