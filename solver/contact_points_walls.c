@@ -53,17 +53,12 @@ static void meet(const struct sim *s, struct meetings *all, const struct around 
             continue;
         if (all->n == all->room)
             grow(all);
-        const vec3 normal = v3_scale(1.0 / f[k].distance, f[k].away);
-        const vec3 at = v3_axpy(centre, 0.5 * (radius - f[k].distance) - radius, normal);
-        all->m[all->n++] = (struct meeting){.f = f[k],
-                                            .p = {.id = id,
-                                                  .depth = radius - f[k].distance,
-                                                  .normal = normal,
-                                                  .at_i = at,
-                                                  .from_i = centre,
-                                                  .r_i = radius,
-                                                  .scale = radius},
-                                            .place = mat3_back(&a->pose.turn, at)};
+        struct shape_point p =
+            shape_balls_meet(centre, radius, v3(0.0, 0.0, 0.0), 0.0, f[k].away, id);
+        p.at_j = v3(0.0, 0.0, 0.0);
+        p.scale = radius;
+        all->m[all->n++] =
+            (struct meeting){.f = f[k], .p = p, .place = mat3_back(&a->pose.turn, p.at_i)};
     }
 }
 
