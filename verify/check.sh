@@ -62,7 +62,7 @@ export ASAN_OPTIONS=detect_leaks=0
 for t in $tests; do
     tally "$t" "build/debug/verify/$t"
 done
-for t in symbols bad_scenes scenes threads studies; do
+for t in symbols bad_scenes scenes threads shapes studies; do
     tally "$t" "verify/$t.sh"
 done
 echo "$passed passed, $failed failed"

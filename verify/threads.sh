@@ -8,7 +8,7 @@ tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 passed=0
 failed=0
-[ $# -gt 0 ] || set -- hopper angle_of_repose drum funnel triaxial
+[ $# -gt 0 ] || set -- hopper angle_of_repose drum funnel triaxial clumps
 make -s build/release/front
 for scene; do
     slots=$(build/release/front slots "scenes/$scene.ini")
