@@ -49,9 +49,9 @@ static void test_frames(void)
     check_rel(other.volume, one.volume, 1e-10, "six balls in another frame: volume");
     check_rel(other.area, one.area, 1e-10, "area");
     check_abs(v3_norm(v3_sub(i, j)) / j.x, 0.0, 1e-10, "principal moments");
-    check_abs(v3_norm(v3_sub(other.centre, v3_add(v3(3.1, -2.7, 0.4),
-                                                  mat3_turn(&m, one.centre)))),
-              0.0, 1e-10, "centre");
+    check_abs(
+        v3_norm(v3_sub(other.centre, v3_add(v3(3.1, -2.7, 0.4), mat3_turn(&m, one.centre)))),
+        0.0, 1e-10, "centre");
     check_rel(without.volume, one.volume, 1e-12, "a ball inside another adds nothing");
 }
 
@@ -110,7 +110,8 @@ static struct shape_pose pose(const struct sim *s, int kind, double size, vec3 x
 }
 
 /* Force and torque on i by unit stiffness at each point, and the same on j. */
-static void load(const struct shape_point *p, int n, vec3 *force, vec3 *torque_i, vec3 *torque_j)
+static void load(const struct shape_point *p, int n, vec3 *force, vec3 *torque_i,
+                 vec3 *torque_j)
 {
     *force = *torque_i = *torque_j = v3(0.0, 0.0, 0.0);
     for (int k = 0; k < n; k++) {
@@ -134,9 +135,10 @@ static void test_contract(void)
         double u[12];
         for (int a = 0; a < 12; a++)
             u[a] = fmod(0.5 + (k * 12 + a + 1) * 0.6180339887498949 + 0.137 * a * k, 1.0);
-        const struct quat qi = quat_random(u), qj = quat_random(u + 3), turn = quat_random(u + 6);
-        const vec3 d = v3(3e-3 * (2.0 * u[9] - 1.0) + 3e-3, 6e-3 * (u[10] - 0.5),
-                          6e-3 * (u[11] - 0.5));
+        const struct quat qi = quat_random(u), qj = quat_random(u + 3),
+                          turn = quat_random(u + 6);
+        const vec3 d =
+            v3(3e-3 * (2.0 * u[9] - 1.0) + 3e-3, 6e-3 * (u[10] - 0.5), 6e-3 * (u[11] - 0.5));
         const struct mat3 m = quat_matrix(turn);
         struct shape_pair pair = {.memory = memory};
         pair.i = pose(s, 0, 3.1e-3, v3(0.0, 0.0, 0.0), qi);
@@ -160,7 +162,8 @@ static void test_contract(void)
         found += n;
     }
     check(found > 1000, "points of contact found: %d", found);
-    check_abs(worst, 0.0, 1e-15, "i against j is j against i: force (unit stiffness) and torques");
+    check_abs(worst, 0.0, 1e-15,
+              "i against j is j against i: force (unit stiffness) and torques");
     check_abs(frame, 0.0, 1e-15, "the same in a turned frame");
     check_abs(place, 0.0, 1e-16, "both bodies see the point in one place");
     sim_free(s);
