@@ -89,7 +89,8 @@ void study_arguments(struct study *s, const char *verb, int *argc, char **argv)
             if (!common_option(s, *argc, argv, &i)) {
                 argv[left++] = argv[i];
                 if (i + 1 < *argc && argv[i + 1][0] != '-' && strcmp(argv[i], "--force") != 0 &&
-                    strcmp(argv[i], "--confirm") != 0 && strcmp(argv[i], "--no-force") != 0)
+                    strcmp(argv[i], "--confirm") != 0 && strcmp(argv[i], "--no-edges") != 0 &&
+                    strcmp(argv[i], "--no-force") != 0)
                     argv[left++] = argv[++i];
             }
         } else if (strchr(argv[i], '=')) {

@@ -16,7 +16,7 @@
 #include <stdio.h>
 #include "../../solver/base.h"
 
-enum { MOST_AXES = 10, MOST_REPEATS = 64 };
+enum { MOST_AXES = 16, MOST_REPEATS = 64 };
 
 enum axis_kind { AXIS_KEY, AXIS_NAMED, AXIS_REAL, AXIS_THREADS };
 

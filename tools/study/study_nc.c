@@ -51,6 +51,14 @@ struct study_nc study_nc_create(const struct study *s, const char *name, const c
     return f;
 }
 
+struct study_nc study_nc_dim(const struct study_nc *f, const char *dim, size_t n)
+{
+    struct study_nc other = *f;
+    other.n = n;
+    nc(f, nc_def_dim(f->nc, dim, n, &other.dim));
+    return other;
+}
+
 void study_nc_real(struct study_nc *f, const char *name, const char *unit,
                    const char *long_name, const double *x)
 {

@@ -12,6 +12,8 @@ struct study_nc {
 
 struct study_nc study_nc_create(const struct study *s, const char *name, const char *dim,
                                 size_t n);
+/* The same file with another dimension, for what does not go by variant; not to be closed. */
+struct study_nc study_nc_dim(const struct study_nc *f, const char *dim, size_t n);
 /* n values; the unit "" is left out. */
 void study_nc_real(struct study_nc *f, const char *name, const char *unit,
                    const char *long_name, const double *x);
