@@ -17,6 +17,11 @@ usage() {
                          the feasibility report: every limit as a ratio; runs nothing
 ./run.sh trade SCENE axis=values ... [--within 5%]
                          error against cost; axis: a key, a slot, real, threads, a named axis
+./run.sh extremes SCENE [axis=values ...]
+                         where it breaks: each point right, wrong, refused, stopped or broken
+./run.sh study FILE [--short] [-o DIR]
+                         the trades and extremes of scenes/studies/NAME.study
+./run.sh axes            the named axes of trade and extremes
 ./run.sh build SCENE [section.key=value ...]
                          the path of the binary for the scene
 ./run.sh plot DIR        the pictures of a run again
@@ -215,6 +220,53 @@ run_study() {
     REAL="$real" exec "$bin/$verb" "${arguments[@]}"
 }
 
+# A .study: commands (trade, extremes) with their scene, then one argument a line; `#` begins a comment.
+# Below [short]: what stands in place of, or beside, these in the short form of the first command.
+# Each command's output goes to DIR/NUMBER.
+study() {
+    local file=$1 short=$2 out=$3 line key part=full n=0 i commands=() arguments=() worst=0 status
+    run_command() {
+        [ ${#arguments[@]} -eq 0 ] && return
+        n=$((n + 1))
+        echo "== ${arguments[*]}"
+        status=0
+        "$root/run.sh" "${arguments[@]}" -o "$out/$n" || status=$?
+        [ $status -lt 128 ] || exit $status
+        [ $status -le $worst ] || worst=$status
+        arguments=()
+    }
+    while IFS= read -r line || [ -n "$line" ]; do
+        line=${line%%#*}
+        line=$(sed -e 's/^[[:space:]]*//' -e 's/[[:space:]]*$//' -e 's/[[:space:]]*=[[:space:]]*/=/' \
+            -e 's/,[[:space:]]*/,/g' <<< "$line")
+        [ -n "$line" ] || continue
+        case $line in
+            "[short]")
+                [ "$short" = yes ] || break
+                part=short
+                ;;
+            trade\ * | extremes\ *)
+                run_command
+                arguments=("${line%% *}" "${line#* }")
+                ;;
+            --* | -j*)
+                key=${line%% *}
+                [ "$key" = "$line" ] && arguments+=("$line") || arguments+=("$key" "${line#* }")
+                ;;
+            *=*)
+                key=${line%%=*}
+                for i in "${!arguments[@]}"; do
+                    [[ $part = short && ${arguments[i]} == "$key="* ]] && unset "arguments[i]"
+                done
+                arguments+=("$line")
+                ;;
+            *) refuse "$file: neither a command, nor an axis, nor an option: $line" ;;
+        esac
+    done < "$file"
+    run_command
+    exit $worst
+}
+
 cd "$root"
 case ${1:-} in
     help | -h | --help)
@@ -231,13 +283,44 @@ case ${1:-} in
         build "$bin/front" answers
         "$bin/front" "$@"
         ;;
+    axes)
+        build "$bin/extremes"
+        "$bin/extremes" axes
+        ;;
     build)
         shift
         parse "$@"
-        [ -n "$scene" ] || refuse "usage: ./run.sh build SCENE [section.key=value ...]"
+        [ -n "$scene" ] || refuse "usage: ./run.sh extremes SCENE [axis=values ...]
+                         where it breaks: each point right, wrong, refused, stopped or broken
+./run.sh study FILE [--short] [-o DIR]
+                         the trades and extremes of scenes/studies/NAME.study
+./run.sh axes            the named axes of trade and extremes
+./run.sh build SCENE [section.key=value ...]"
         scene=$(find_scene "$scene")
         build_scene
         echo "$binary"
+        ;;
+    study)
+        [ $# -ge 2 ] || refuse "usage: ./run.sh study FILE [--short] [-o DIR]"
+        file=$(find_scene "$2")
+        shift 2
+        short=no
+        name=$(basename "$file")
+        directory=$root/out/${name%.study}-study
+        while [ $# -gt 0 ]; do
+            case $1 in
+                --short) short=yes ;;
+                -o)
+                    [ -n "${2:-}" ] || refuse "$1 needs a value"
+                    directory=$(from_caller "$2")
+                    shift
+                    ;;
+                *) refuse "usage: ./run.sh study FILE [--short] [-o DIR]" ;;
+            esac
+            shift
+        done
+        install_packages
+        study "$file" $short "$directory"
         ;;
     trade | extremes)
         install_packages

@@ -75,6 +75,8 @@ void run_steps(struct sim *s, struct scene *scene)
                                     : r->end / (1000.0 * r->substeps);
     } else {
         r->dt = scene_real(scene, "run", NULL, "dt");
+        if (r->force) /* a study forces its step on scenes that have a safety, too */
+            scene_real(scene, "run", NULL, "safety");
     }
     if (scene_errors(scene) > 0 || !(r->dt > 0.0)) {
         r->dt = r->dt > 0.0 ? r->dt : 1.0;

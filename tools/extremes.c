@@ -189,9 +189,25 @@ static int print_counts(const struct extremes *x)
     return count[POINT_BROKEN] > 0 ? EXIT_BROKEN : EXIT_GOOD;
 }
 
+static int print_axes(void)
+{
+    printf(
+        "An axis of trade or extremes is a key (run.dt), a slot (drag), real (double, float), "
+        "threads, or:\n  %-14s %-40s %s\n",
+        "axis", "values where none are given", "meaning");
+    for (int i = 0; named_axes[i].name; i++)
+        printf("  %-14s %-40s %s\n", named_axes[i].name, named_axes[i].standard,
+               named_axes[i].meaning);
+    printf("Values: a,b,c; or from:to:count, evenly on a logarithmic scale (from:to:count:lin: "
+           "evenly).\n");
+    return EXIT_GOOD;
+}
+
 int main(int argc, char **argv)
 {
     static struct extremes x;
+    if (argc == 2 && strcmp(argv[1], "axes") == 0)
+        return print_axes();
     parse(&x, argc, argv);
     study_open(&x.study);
     if (x.grid)

@@ -164,7 +164,7 @@ char *axis_parse(struct axis *a, const char *text)
     if (!find_key(a))
         return xprintf(
             "%s: no such axis: a key (section.key), a slot, real, threads, or a named "
-            "axis (./run.sh help axes)",
+            "axis (./run.sh axes)",
             a->name);
     const char *values = equals + 1;
     while (*values == ' ')
