@@ -156,7 +156,13 @@ void reference_report(struct sim *s)
     summary_number(&s->summary, "discharge_rate_error", error, "kg s-1");
     summary_number(&s->summary, "beverloo_rate", want, "kg s-1");
     summary_number(&s->summary, "beverloo_error", off, "1");
-    summary_reference(&s->summary, off, p->tolerance);
+    summary_reference(&s->summary, (struct comparison){.quantity = "discharge rate",
+                                                       .source = reference_about.source,
+                                                       .unit = "kg s-1",
+                                                       .got = got,
+                                                       .want = want,
+                                                       .error = off,
+                                                       .tolerance = p->tolerance});
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s discharge %.4g kg/s, Beverloo %.4g kg/s at a bulk density of %.0f "
            "kg/m3: %+.1f %%, tolerance %g %%\n",

@@ -142,7 +142,13 @@ void reference_report(struct sim *s)
     summary_number(&s->summary, "drop_deviation", spread, "Pa");
     summary_number(&s->summary, "drop_error", error, "1");
     summary_number(&s->summary, "bed_mean_height", mean_height(s), "m");
-    summary_reference(&s->summary, error, p->tolerance);
+    summary_reference(&s->summary, (struct comparison){.quantity = "mean pressure drop",
+                                                       .source = reference_about.source,
+                                                       .unit = "Pa",
+                                                       .got = mean,
+                                                       .want = p->weight,
+                                                       .error = error,
+                                                       .tolerance = p->tolerance});
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s pressure drop %.1f Pa from %g s on (deviation %.1f, %.1f to %.1f), "
            "buoyant "

@@ -235,7 +235,14 @@ void reference_report(struct sim *s)
     summary_number(sum, "flux_exact", u, "m s-1");
     summary_number(sum, "flux_error", flux_error, "1");
     summary_number(sum, "head_error", worst, "1");
-    summary_reference(sum, fmax(worst, fabs(flux_error)), p->tolerance);
+    summary_reference(
+        sum, (struct comparison){.quantity = "flux; error: the larger of flux and heads",
+                                 .source = reference_about.source,
+                                 .unit = "m s-1",
+                                 .got = got,
+                                 .want = u,
+                                 .error = fmax(worst, fabs(flux_error)),
+                                 .tolerance = p->tolerance});
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
     printf(
         "reference: %s flux %.8g m/s against %.8g m/s, %+.2e, largest error of a head %.2e of "

@@ -137,7 +137,15 @@ void reference_report(struct sim *s)
     }
     const bool good = worst <= p->tolerance;
     summary_number(&s->summary, "cavity_error", worst, "1");
-    summary_reference(&s->summary, worst, p->tolerance);
+    summary_reference(
+        &s->summary,
+        (struct comparison){.quantity = "velocity on the centre lines, largest difference",
+                            .source = reference_about.source,
+                            .unit = "1",
+                            .got = (double)NAN,
+                            .want = (double)NAN,
+                            .error = worst,
+                            .tolerance = p->tolerance});
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s largest error on the centre lines %.2e of the lid's velocity, "
            "tolerance %g\n",

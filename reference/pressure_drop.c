@@ -67,7 +67,7 @@ struct pressure_drop {
     struct table *table;
 };
 
-enum { COLUMNS = 15, ERROR_PROFILE = 11 };
+enum { COLUMNS = 15, DROP = 2, LAW_PROFILE = 7, ERROR_PROFILE = 11 };
 static const struct table pattern = {
     .name = "pressure_drop",
     .title = "pressure drop of the bed (levels not fixed: laws at the bed of the start)",
@@ -327,7 +327,7 @@ void reference_report(struct sim *s)
     struct pressure_drop *const p = s->reference;
     struct summary *const sum = &s->summary;
     const struct bed_size *const bed = &p->start.size;
-    double profile = 0.0;
+    double profile = 0.0, drop[2] = {(double)NAN, (double)NAN};
     int fixed = 0;
     close_level(p, s);
     sort_levels(p);
@@ -336,6 +336,10 @@ void reference_report(struct sim *s)
         if (p->level[k].fixed && p->level[k].velocity > 0.0) {
             const double *const row = &p->table->row[(size_t)k * COLUMNS];
             profile = worse(profile, row[ERROR_PROFILE]);
+            if (profile == row[ERROR_PROFILE]) {
+                drop[0] = row[DROP];
+                drop[1] = row[LAW_PROFILE];
+            }
             fixed++;
         }
     }
@@ -359,7 +363,14 @@ void reference_report(struct sim *s)
         printf("reference: FAIL no level of flow was measured with the bed fixed\n");
         good = false;
     }
-    summary_reference(sum, fixed > 0 ? profile : (double)NAN, p->tolerance_drop);
+    summary_reference(
+        sum, (struct comparison){.quantity = "pressure drop of the fixed bed, worst level",
+                                 .source = reference_about.source,
+                                 .unit = "Pa",
+                                 .got = drop[0],
+                                 .want = drop[1],
+                                 .error = fixed > 0 ? profile : (double)NAN,
+                                 .tolerance = p->tolerance_drop});
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
 }
 

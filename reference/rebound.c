@@ -165,7 +165,7 @@ void reference_watch(struct sim *s)
 void reference_report(struct sim *s)
 {
     struct rebound *const p = s->reference;
-    double worst = 0.0;
+    double worst = 0.0, last[2] = {(double)NAN, (double)NAN};
     int bounces = 0;
     for (int k = 0; k <= p->bounces; k++) {
         const int n = p->reached[k];
@@ -174,13 +174,23 @@ void reference_report(struct sim *s)
         const double row[] = {k, n, p->simulated[k] / n, p->exact[k] / n, p->error[k]};
         table_row(p->heights, row);
         worst = fmax(worst, p->error[k]);
+        last[0] = row[2];
+        last[1] = row[3];
         bounces = k;
     }
     table_print(stdout, p->heights);
     const bool good = bounces > 0 && worst <= p->tolerance;
     summary_number(&s->summary, "bounces", bounces, "1");
     summary_number(&s->summary, "height_error", worst, "1");
-    summary_reference(&s->summary, bounces > 0 ? worst : (double)NAN, p->tolerance);
+    summary_reference(
+        &s->summary,
+        (struct comparison){.quantity = "height of the last bounce; error: of the worst",
+                            .source = reference_about.source,
+                            .unit = "m",
+                            .got = last[0],
+                            .want = last[1],
+                            .error = bounces > 0 ? worst : (double)NAN,
+                            .tolerance = p->tolerance});
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s heights after %d bounces, largest error %.4f %%, tolerance %g %%\n",
            good ? "pass" : "FAIL", bounces, 100.0 * worst, 100.0 * p->tolerance);

@@ -81,7 +81,14 @@ void reference_report(struct sim *s)
     summary_number(&s->summary, "surface_scatter", f->scatter, "m");
     summary_number(&s->summary, "surface_points", f->points, "1");
     if (!isnan(p->angle))
-        summary_reference(&s->summary, angle / p->angle - 1.0, p->tolerance / p->angle);
+        summary_reference(&s->summary,
+                          (struct comparison){.quantity = "angle of repose",
+                                              .source = reference_about.source,
+                                              .unit = "degree",
+                                              .got = angle,
+                                              .want = p->angle,
+                                              .error = angle / p->angle - 1.0,
+                                              .tolerance = p->tolerance / p->angle});
     summary_text(&s->summary, "verdict", good ? "pass" : "FAIL");
     printf("reference: %s angle of repose %.1f degrees over %d points, scatter %.2f d, drift "
            "%.2f degrees at rest%s%s%s%s\n",

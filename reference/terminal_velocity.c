@@ -253,7 +253,13 @@ void reference_report(struct sim *s)
     printf("reference: %s velocity at t = %g s, %.6g m/s against %.6g m/s, %+.4f %%, tolerance "
            "%g %%\n",
            good ? "pass" : "FAIL", p->t, p->speed, exact, 100.0 * error, 100.0 * p->tolerance);
-    summary_reference(sum, error, p->tolerance);
+    summary_reference(sum, (struct comparison){.quantity = "velocity at the end",
+                                               .source = reference_about.source,
+                                               .unit = "m s-1",
+                                               .got = p->speed,
+                                               .want = exact,
+                                               .error = error,
+                                               .tolerance = p->tolerance});
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
 }
 

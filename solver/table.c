@@ -125,10 +125,16 @@ void summary_text(struct summary *s, const char *key, const char *format, ...)
     l->number = (double)NAN;
 }
 
-void summary_reference(struct summary *s, double error, double tolerance)
+void summary_reference(struct summary *s, struct comparison c)
 {
-    summary_number(s, "reference_error", error, "1");
-    summary_number(s, "reference_tolerance", tolerance, "1");
+    summary_text(s, "reference_quantity", "%s", c.quantity);
+    summary_text(s, "reference_source", "%s", c.source);
+    if (!isnan(c.got) && !isnan(c.want)) {
+        summary_number(s, "reference_value", c.got, c.unit);
+        summary_number(s, "reference_expected", c.want, c.unit);
+    }
+    summary_number(s, "reference_error", c.error, "1");
+    summary_number(s, "reference_tolerance", c.tolerance, "1");
 }
 
 const struct summary_line *summary_find(const struct summary *s, const char *key)

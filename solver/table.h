@@ -109,9 +109,14 @@ struct summary {
 void summary_number(struct summary *s, const char *key, double value, const char *unit);
 void summary_text(struct summary *s, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* What a study compares: the error against the reference and the tolerance for it, both relative,
- * as reference_error and reference_tolerance. */
-void summary_reference(struct summary *s, double error, double tolerance);
+/* What a study and the report compare: as lines reference_quantity, reference_source,
+ * reference_value, reference_expected, reference_error, reference_tolerance. */
+struct comparison {
+    const char *quantity, *source, *unit; /* source: keys in NOTATION.md */
+    double got, want;                     /* NaN: the comparison is of a whole curve */
+    double error, tolerance;              /* relative */
+};
+void summary_reference(struct summary *s, struct comparison c);
 const struct summary_line *summary_find(const struct summary *s, const char *key); /* or NULL */
 
 void tables_free(struct tables *t);

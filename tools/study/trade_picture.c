@@ -104,11 +104,12 @@ static void send_labels(FILE *to, const struct trade *t, const int *order, int n
 /* 1, 2, 5, 10, ...: decades alone would leave a short axis without a number. */
 static void send_tics(FILE *to, char axis, double low, double high)
 {
-    static const double step[] = {1.0, 2.0, 5.0};
+    static const double step[] = {1.0, 2.0, 5.0, 1.5, 3.0, 4.0, 6.0, 7.0, 8.0, 9.0};
+    const int steps = high / low > 40.0 ? 3 : 10;
     const char *between = "";
     fprintf(to, "set %ctics (", axis);
     for (int decade = (int)floor(log10(low)); decade <= (int)ceil(log10(high)); decade++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < steps; k++) {
             fprintf(to, "%s%.10g", between, step[k] * pow(10.0, decade));
             between = ",";
         }
