@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "study.h"
+#include "../../solver/scene.h"
 #include "view.h"
 
 static const double pi = 3.14159265358979323846;
@@ -10,7 +11,9 @@ static const double pi = 3.14159265358979323846;
 const struct named_axis named_axes[] = {
     {"density_ratio", "1e-3:1e4:8", "density of the grains over that of the fluid"},
     {"stiffness", "1e3:1e12:10",
-     "Pa: Young's modulus of every material; contact = linear: times the grain's diameter"},
+     "Pa: Young's modulus of every material (Poisson's ratio 0.3 where none is given); contact "
+     "= "
+     "linear: times the grain's diameter, N/m"},
     {"restitution", "0.01,0.05,0.2,0.5,0.8,0.95,1", "of every material"},
     {"friction", "0,0.01,0.1,0.5,1,3,10", "of every material"},
     {"size_ratio", "1:100:5",
@@ -92,6 +95,9 @@ static bool stiffness(struct expansion *e)
             put(e, "material %s.stiffness=%.9g N/m", e->v.material[i], e->x * sp->d);
         else
             put(e, "material %s.young=%.9g Pa", e->v.material[i], e->x);
+    for (int i = 0; i < e->v.n_materials && !e->v.linear; i++)
+        if (!scene_given(e->v.scene, "material", e->v.material[i], "poisson"))
+            put(e, "material %s.poisson=0.3", e->v.material[i]);
     return e->n > 0 || refuse(e, "the scene has no material");
 }
 
@@ -102,8 +108,11 @@ static bool material_key(struct expansion *e, const char *key)
     return e->n > 0 || refuse(e, "the scene has no material");
 }
 
+/* Where the scene's reference expects a restitution, it expects this one. */
 static bool restitution(struct expansion *e)
 {
+    if (scene_given(e->v.scene, "reference", NULL, "restitution"))
+        put(e, "reference.restitution=%.9g", e->x);
     return material_key(e, "restitution");
 }
 

@@ -15,6 +15,8 @@ static const struct key wanted[] = {
     {"grains", "density", KEY_REAL, "kg m-3", "(0, inf)", "1 kg/m3", ""},
     {"grains", "frozen", KEY_CHOICE, "", "no | yes", "no", ""},
     {"grains", "fill", KEY_TEXT, "", "", "lattice", ""},
+    {"material", "poisson", KEY_REAL, "1", "(-1, 0.5]", "0.3", ""},
+    {"reference", "restitution", KEY_REAL, "1", "(0, 1]", "1", ""},
     {"material", "young", KEY_REAL, "Pa", "(0, inf)", "1 Pa", ""},
     {"fluid", "density", KEY_REAL, "kg m-3", "(0, inf)", "1 kg/m3", ""},
     {"fluid", "viscosity", KEY_REAL, "Pa s", "[0, inf)", "1 Pa s", ""},
