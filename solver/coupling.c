@@ -53,28 +53,26 @@ void coupling_create(struct sim *s)
     fields_add(&s->fields,
                (struct field){"coupled", "1", "it has felt the fluid before", PLACE_GRAIN,
                               KIND_INT, (void **)&c->coupled, FIELD_STATE});
-    c->eps = grid_field(&s->grid);
+    c->eps = c->ways == 2 ? s->fluid.eps : grid_field(&s->grid);
     drag_grains_create(s);
     forces_create(s);
     c->eps_seen = c->diffuse ? grid_field(&s->grid) : c->eps;
     for (int a = 0; a < 3; a++) {
-        static const char *const name[3][2] = {{"drag_velocity_x", "drag_swing_x"},
-                                               {"drag_velocity_y", "drag_swing_y"},
-                                               {"drag_velocity_z", "drag_swing_z"}};
+        static const char *const name[3] = {"drag_velocity_x", "drag_velocity_y",
+                                            "drag_velocity_z"};
         const enum place place = (enum place)(PLACE_FACE_X + a);
         c->u_drag[a] = grid_field(&s->grid);
-        c->swing[a] = grid_field(&s->grid);
         fields_add(&s->fields,
-                   (struct field){name[a][0], "m s-1", "velocity the drag was taken at", place,
+                   (struct field){name[a], "m s-1", "velocity the drag was taken at", place,
                                   KIND_REAL, (void **)&c->u_drag[a], FIELD_STATE});
-        fields_add(&s->fields,
-                   (struct field){name[a][1], "m s-1", "its last wish to change", place,
-                                  KIND_REAL, (void **)&c->swing[a], FIELD_STATE});
         c->K[a] = grid_field(&s->grid);
-        c->KV[a] = grid_field(&s->grid);
         c->seen[a] = grid_field(&s->grid);
-        c->M[a] = grid_field(&s->grid);
+        c->M[a] = c->diffuse ? grid_field(&s->grid) : NULL;
     }
+    c->swing = xalloc(s->grid.total, sizeof *c->swing);
+    fields_add(&s->fields,
+               (struct field){"drag_swing", "1", "signs of its last wishes to change",
+                              PLACE_CELL, KIND_INT, (void **)&c->swing, FIELD_STATE});
     fields_add(&s->fields,
                (struct field){"drag", "N", "drag force on the grain", PLACE_GRAIN, KIND_VEC3,
                               (void **)&c->drag, FIELD_STATE | FIELD_OUTPUT});
@@ -90,7 +88,7 @@ void coupling_free(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     void *const all[] = {c->n_shares, c->shares,  c->part,     c->values, c->v_ref,
-                         c->drag,     c->vel_old, c->pos_load, c->eps,    c->slack};
+                         c->drag,     c->vel_old, c->pos_load, c->swing,  c->slack};
     drag_grains_free(s);
     forces_free(s);
     xfree(c->coupled);
@@ -98,13 +96,13 @@ void coupling_free(struct sim *s)
     diffuse_free(c->diffuse);
     if (c->eps_seen != c->eps)
         xfree(c->eps_seen);
+    if (c->ways == 1)
+        xfree(c->eps);
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     for (int a = 0; a < 3; a++) {
         xfree(c->K[a]);
-        xfree(c->KV[a]);
         xfree(c->u_drag[a]);
-        xfree(c->swing[a]);
         xfree(c->seen[a]);
         xfree(c->M[a]);
     }
@@ -157,25 +155,18 @@ static void fluid_fraction(struct sim *s, const double *volume)
     }
 }
 
-/* M of coupling.h (form 27c: of eps_f), over eps^2 and diffused. */
+/* M of coupling.h, diffused. */
 static void sense_squares(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
     const struct grid *const g = &s->grid;
-    const bool whole = s->fluid.whole_pressure;
-    for (int a = 0; a < 3; a++) {
-        const int step = g->s[a];
+    for (int a = 0; a < 3 && c->diffuse; a++) {
 #pragma omp parallel for schedule(static)
         for (int k = 1; k <= g->n[2]; k++)
             for (int j = 1; j <= g->n[1]; j++)
-                for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++) {
-                    const double e = c->eps[at];
-                    const double lo = 0.5 * (e + c->eps[at - step]);
-                    const double hi = 0.5 * (e + c->eps[at + step]);
-                    c->M[a][at] = 0.5 * (whole ? lo + hi : lo * lo + hi * hi) / (e * e);
-                }
-        if (c->diffuse)
-            diffuse_apply(c->diffuse, c->M[a]);
+                for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++)
+                    c->M[a][at] = coupling_square(c->eps, at, g->s[a], s->fluid.whole_pressure);
+        diffuse_apply(c->diffuse, c->M[a]);
     }
 }
 
@@ -207,13 +198,8 @@ void coupling_volume(struct sim *s)
     if (c->diffuse)
         diffuse_apply(c->diffuse, c->K[0]);
     drag_grains_sauter(s, c->K[0]);
-    fluid_fraction(s, c->K[0]);
     memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
-    if (c->ways == 2)
-        memcpy(f->eps, c->eps, g->total * sizeof *f->eps);
-    else
-        for (size_t k = 0; k < g->total; k++)
-            f->eps[k] = 1.0;
+    fluid_fraction(s, c->K[0]);
     if (c->calls == 0) {
         memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
     }

@@ -66,13 +66,15 @@ struct coupling {
     vec3 *pos_load;    /* m at the last fluid step (a grain field), for the ledger's work */
     vec3 *v_ref;       /* m/s, v' */
     double *u_drag[3]; /* m/s on faces, superficial, at which kappa was taken (state) */
-    double *swing[3];  /* m/s, how it wished to change the last time (state) */
-    double *eps;       /* fluid fraction, ghosts filled */
-    double *eps_seen;  /* D eps, as the grains see it; eps itself where D is the identity */
-    double *
-        seen[3]; /* on cells, D of the velocity U/eps; of the mean of eps_f^2 u_f, over eps^2 */
-    double *M[3];               /* on cells, D of the mean of eps_f^2 over eps^2 */
-    double *K[3], *KV[3];       /* on cells, kg/s and N; K then D of the stress */
+    int *swing; /* how it wished to change the last time, two bits for each direction (state) */
+    double *eps;      /* fluid fraction, ghosts filled; two-way that of the fluid */
+    double *eps_seen; /* D eps, as the grains see it; eps itself where D is the identity */
+    double
+        *seen[3]; /* on cells, D of the velocity U/eps; of the mean of eps_f^2 u_f, over eps^2.
+                          The fluid's scratch while neither drag nor load is under way */
+    double *M[3]; /* on cells, D of the mean of eps_f^2 over eps^2; NULL where D is the
+                          identity: then by coupling_square */
+    double *K[3]; /* on cells, D of the stress; the fluid's scratch too */
     vec3 to_grains, from_fluid; /* N, drag + stress on all grains / lost by the fluid */
     double eps_least;           /* smallest fluid fraction at this step */
     double relaxation;          /* largest dt kappa/m at this step */
@@ -85,6 +87,14 @@ void coupling_read(struct sim *s,
                    struct scene *scene); /* [coupling], and the keys of drag/, porosity/ */
 void coupling_create(struct sim *s);     /* once grid and grains exist */
 void coupling_free(struct sim *s);
+
+/* M of coupling.h of a cell where D is the identity: the mean of eps_f^2 (form 27c: of eps_f) over the
+ * faces of direction a, over eps^2. */
+static inline double coupling_square(const double *eps, int at, int step, bool whole)
+{
+    const double e = eps[at], lo = 0.5 * (e + eps[at - step]), hi = 0.5 * (e + eps[at + step]);
+    return 0.5 * (whole ? lo + hi : lo * lo + hi * hi) / (e * e);
+}
 
 void coupling_volume(struct sim *s); /* shares, fluid->eps, eps_f; keeps eps_old */
 void coupling_drag(struct sim *s);   /* fluid->drag, drag_s from the velocities at hand */

@@ -9,13 +9,17 @@
 static void drag_velocities(struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
+    enum { UP = 1, DOWN = 2, BOTH = 3 };
+    int *const swing = s->coupling.swing;
     for (int a = 0; a < 3; a++) {
-        double *const u = s->coupling.u_drag[a], *const swing = s->coupling.swing[a];
+        double *const u = s->coupling.u_drag[a];
 #pragma omp parallel for schedule(static)
         for (size_t c = 0; c < s->grid.total; c++) {
             const double wish = f->eps_f[a][c] * f->u[a][c] - u[c];
-            u[c] += wish * swing[c] < 0.0 ? 0.5 * wish : wish;
-            swing[c] = wish;
+            const int now = wish > 0.0 ? UP : wish < 0.0 ? DOWN : 0;
+            const int before = swing[c] >> 2 * a & BOTH;
+            u[c] += (now | before) == BOTH ? 0.5 * wish : wish;
+            swing[c] ^= (before ^ now) << 2 * a;
         }
     }
 }
@@ -36,6 +40,14 @@ static void see_velocity(struct sim *s)
         if (c->diffuse)
             diffuse_apply(c->diffuse, c->seen[a]);
     }
+}
+
+/* M of coupling.h */
+static inline double square_of(const struct sim *s, int a, int at)
+{
+    const struct coupling *const c = &s->coupling;
+    return c->diffuse ? c->M[a][at]
+                      : coupling_square(c->eps, at, s->grid.s[a], s->fluid.whole_pressure);
 }
 
 /* w kappa, 1/(1 + theta) and v' of one grain; returns its largest theta. It is `outside` where the
@@ -64,7 +76,7 @@ static double grain_drag(struct sim *s, int i, bool *outside)
             *outside = *outside || drag_outside(&p);
         }
         for (int a = 0; a < 3; a++)
-            theta[a] += part[k] * c->M[a][at];
+            theta[a] += part[k] * square_of(s, a, at);
     }
     const double per_mass = s->fluid.dt * g->inv_mass[i];
     const vec3 f = c->resistance;
@@ -81,11 +93,13 @@ static double grain_drag(struct sim *s, int i, bool *outside)
     return fmax(rate.x, fmax(rate.y, rate.z));
 }
 
-/* K and KV: kappa'/eps^2 and that times v', per cell. */
+/* kappa'/eps^2 and that times v', per cell, where the drag on faces is going to be. */
 static void spread_drag(struct sim *s)
 {
     struct coupling *const c = &s->coupling;
-    double *const out[6] = {c->K[0], c->K[1], c->K[2], c->KV[0], c->KV[1], c->KV[2]};
+    struct fluid *const f = &s->fluid;
+    double *const out[6] = {f->drag[0],   f->drag[1],   f->drag[2],
+                            f->drag_s[0], f->drag_s[1], f->drag_s[2]};
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < s->grains.n; i++) {
         double *const v = &c->values[(size_t)i * SPREAD_STRIDE];
@@ -106,18 +120,17 @@ static void spread_drag(struct sim *s)
     }
 }
 
-/* B = m^2 mean(K)/V, S = m^2 mean(KV)/V on faces (form 27c: m) */
+/* B = m^2/V times the mean of the two cells, S likewise (form 27c: m) */
 static void drag_on_faces(struct sim *s)
 {
-    struct coupling *const c = &s->coupling;
     struct fluid *const f = &s->fluid;
     const size_t total = s->grid.total;
     const double inverse = 1.0 / s->grid.volume;
     for (int a = 0; a < 3; a++) {
-        grid_ghosts(&s->grid, &s->domain, c->K[a]);
-        grid_ghosts(&s->grid, &s->domain, c->KV[a]);
-        grid_face_mean(&s->grid, &s->domain, c->K[a], a, f->drag[a]);
-        grid_face_mean(&s->grid, &s->domain, c->KV[a], a, f->drag_s[a]);
+        grid_ghosts(&s->grid, &s->domain, f->drag[a]);
+        grid_ghosts(&s->grid, &s->domain, f->drag_s[a]);
+        grid_face_mean(&s->grid, &s->domain, f->drag[a], a, f->drag[a]);
+        grid_face_mean(&s->grid, &s->domain, f->drag_s[a], a, f->drag_s[a]);
 #pragma omp parallel for schedule(static)
         for (size_t k = 0; k < total; k++) {
             const double m = f->eps_f[a][k];
@@ -199,7 +212,7 @@ static vec3 grain_load(struct sim *s, int i)
     for (int k = 0; k < c->n_shares[i]; k++) {
         const int at = w[k].cell;
         for (int a = 0; a < 3; a++) {
-            drag[a] += part[k] * (c->seen[a][at] - v[a] * c->M[a][at]);
+            drag[a] += part[k] * (c->seen[a][at] - v[a] * square_of(s, a, at));
             stress[a] += w[k].weight * c->K[a][at];
         }
     }

@@ -55,7 +55,7 @@ void grid_face_mean(const struct grid *g, const struct domain *dom, const double
     for (int k = 0; k <= g->n[d] + 1; k++)
         for (int j = 0; j <= g->n[b] + 1; j++) {
             const int at = j * g->s[b] + k * g->s[d];
-            for (int i = 1; i <= g->n[a] + 1; i++)
+            for (int i = g->n[a] + 1; i >= 1; i--) /* downwards: in place too */
                 faces[at + i * step] =
                     0.5 * (cells[at + i * step] + cells[at + (i - 1) * step]);
             faces[at] = faces[at + (dom->periodic[a] ? g->n[a] : 1) * step];

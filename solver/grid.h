@@ -40,7 +40,7 @@ double *grid_field(const struct grid *g);                 /* zeroed; free with x
 void grid_ghosts(const struct grid *g, const struct domain *d, double *field);
 
 /* Means of the two cells beside each face of direction a, ghosts of the others included; the ghosts
- * of `cells` must be filled. Beyond the first face a periodic copy, or the first face again. */
+ * of `cells` must be filled. Beyond the first face a periodic copy, or the first face again. `faces` may be `cells`. */
 void grid_face_mean(const struct grid *g, const struct domain *dom, const double *cells, int a,
                     double *faces);
 

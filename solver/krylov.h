@@ -20,6 +20,7 @@ struct krylov {
     void *c[3];  /* on low faces; set by pressure.c, ghosts included */
     void *x, *r; /* correction (from 0) and residual */
     void *z, *s, *q;
+    bool lent;    /* r, z, s, q are another's */
     double *part; /* sums of the rows, for dot products */
     double shift, rz;
     double *flat, *up; /* of the layers, for the direct solve (scaled as c) */
@@ -29,9 +30,13 @@ struct krylov {
 
 /* One precision. */
 struct krylov_kind {
+    /* lent: NULL, or two fields of b->total doubles that a solve may use as scratch. */
     struct krylov *(*create)(const struct box *b, const bool periodic[3],
-                             struct poisson *direct);
+                             struct poisson *direct, double *const lent[2]);
     void (*free)(struct krylov *w);
+
+    /* Before r is set for a new equation: ghosts that are never written are 0. */
+    void (*start)(struct krylov *w);
 
     /* To be called when c has been set, before multigrid is asked for with it. */
     void (*coarsen)(struct krylov *w);

@@ -15,15 +15,21 @@ static struct stencil stencil_of(const struct krylov *w)
 }
 
 static struct krylov *krylov_create(const struct box *b, const bool periodic[3],
-                                    struct poisson *direct)
+                                    struct poisson *direct, double *const lent[2])
 {
     struct krylov *const w = xalloc(1, sizeof *w);
     w->box = b;
     w->real = sizeof(REAL);
     w->direct = direct;
-    void **const fields[] = {&w->c[0], &w->c[1], &w->c[2], &w->x, &w->r, &w->z, &w->s, &w->q};
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
-        *fields[i] = xalloc(b->total, sizeof(REAL));
+    void **const own[] = {&w->c[0], &w->c[1], &w->c[2], &w->x};
+    void **const scratch[] = {&w->r, &w->z, &w->s, &w->q};
+    w->lent = lent && 2 * sizeof(REAL) == sizeof(double);
+    for (int i = 0; i < 4; i++) {
+        *own[i] = xalloc(b->total, sizeof(REAL));
+        *scratch[i] = w->lent
+                          ? (void *)((REAL *)(void *)lent[i / 2] + (size_t)(i % 2) * b->total)
+                          : xalloc(b->total, sizeof(REAL));
+    }
     w->part = xalloc(2 * (size_t)b->n[1] * b->n[2], sizeof *w->part);
     w->flat = xalloc((size_t)b->n[2] + 2, sizeof *w->flat);
     w->up = xalloc((size_t)b->n[2] + 2, sizeof *w->up);
@@ -37,10 +43,23 @@ static void krylov_free(struct krylov *w)
     if (!w)
         return;
     multigrid_free(w->multigrid);
-    void *const all[] = {w->c[0], w->c[1], w->c[2], w->x,    w->r,  w->z,
-                         w->s,    w->q,    w->part, w->flat, w->up, w};
+    void *const scratch[] = {w->r, w->z, w->s, w->q};
+    for (int i = 0; i < 4 && !w->lent; i++)
+        xfree(scratch[i]);
+    void *const all[] = {w->c[0], w->c[1], w->c[2], w->x, w->part, w->flat, w->up, w};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
+}
+
+static void krylov_start(struct krylov *w)
+{
+    const struct stencil t = stencil_of(w);
+    const size_t plane = (size_t)t.s[2];
+    REAL *const fields[] = {w->r, w->z, w->s, w->q};
+#pragma omp parallel for schedule(static) if (worth_threads(&t))
+    for (int k = 0; k < t.n[2] + 2; k++)
+        for (int i = 0; i < 4 && w->lent; i++)
+            memset(fields[i] + (size_t)k * plane, 0, plane * sizeof(REAL));
 }
 
 static void krylov_coarsen(struct krylov *w)

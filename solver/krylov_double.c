@@ -7,5 +7,5 @@
 #include "multigrid_body.h"
 #include "krylov_body.h"
 
-const struct krylov_kind krylov_double = {krylov_create, krylov_free, krylov_coarsen,
-                                          krylov_solve};
+const struct krylov_kind krylov_double = {krylov_create, krylov_free, krylov_start,
+                                          krylov_coarsen, krylov_solve};

@@ -85,7 +85,6 @@ struct poisson *poisson_create(const struct grid *g, const enum poisson_side sid
             p->lambda[i + (size_t)nx * j] =
                 eigenvalue(p, axis[0], p->t[0], i) + eigenvalue(p, axis[1], p->t[1], j);
     pad_lambda(p);
-    p->work = xalloc((size_t)p->width[0] * ny * p->n[2], sizeof(double));
     p->layers = xalloc((size_t)p->n[2], sizeof *p->layers);
     const size_t lines = 4 * (size_t)(nx > ny ? nx : ny);
     p->scratch_size = 64 * (lines + 2 * SWEEP_PACKS * (size_t)p->n[2] + 8);
@@ -113,8 +112,16 @@ bool poisson_singular(const struct poisson *p, double shift)
     return shift == 0.0;
 }
 
-void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift)
+void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift,
+                     bool single)
 {
+    const size_t size = (size_t)p->width[single] * p->n[1] * p->n[2] *
+                        (single ? sizeof(float) : sizeof(double));
+    if (size > p->work_size) {
+        xfree(p->work);
+        p->work = xalloc(size, 1);
+        p->work_size = size;
+    }
     const double scale = 1.0 / (p->g->h[2] * p->g->h[2]);
     const int n = p->n[2];
     const bool periodic = p->side[Z_LO] == POISSON_PERIODIC;
@@ -177,7 +184,7 @@ void poisson_layout(struct poisson *p, bool grid)
 void poisson_solve_double(struct poisson *p, const double *flat, const double *up, double shift,
                           const double *rhs, double *out, const struct poisson_hook *hook)
 {
-    poisson_prepare(p, flat, up, shift);
+    poisson_prepare(p, flat, up, shift, false);
     poisson_layout(p, false);
     direct(p, rhs, out, hook);
 }
@@ -185,7 +192,7 @@ void poisson_solve_double(struct poisson *p, const double *flat, const double *u
 void poisson_solve(struct poisson *p, const double *flat, const double *up, double shift,
                    const double *rhs, double *out)
 {
-    poisson_prepare(p, flat, up, shift);
+    poisson_prepare(p, flat, up, shift, false);
     poisson_layout(p, true);
     direct(p, rhs, out, NULL);
 }

@@ -21,7 +21,8 @@ struct poisson {
     int width[2];           /* modes in a row of the work, padded; double and single */
     void *lambda_wide[2];   /* the same, padded */
     double norm;
-    void *work;           /* planes x rows x width */
+    void *work;           /* planes x rows x width, for the precision asked for so far */
+    size_t work_size;     /* bytes */
     struct layer *layers; /* n[2] */
     bool singular;        /* this solve */
     char *scratch;        /* of each thread */
@@ -29,8 +30,9 @@ struct poisson {
     int threads;          /* that it has room for */
 };
 
-/* Layers for these coefficients, scratch for the threads at hand. */
-void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift);
+/* Layers for these coefficients, room for this precision and for the threads at hand. */
+void poisson_prepare(struct poisson *p, const double *flat, const double *up, double shift,
+                     bool single);
 
 void poisson_layout(struct poisson *p, bool grid); /* fields of the grid, or of the box */
 

@@ -13,7 +13,7 @@ static inline const float *table_of(const struct transform *t)
 void poisson_solve_single(struct poisson *p, const double *flat, const double *up, double shift,
                           const float *rhs, float *out, const struct poisson_hook *hook)
 {
-    poisson_prepare(p, flat, up, shift);
+    poisson_prepare(p, flat, up, shift, true);
     poisson_layout(p, false);
     direct(p, rhs, out, hook);
 }

@@ -32,6 +32,7 @@ struct pressure {
     struct box box;
     struct poisson *direct;
     struct krylov *krylov[2];      /* in single, and once it is needed in double precision */
+    double *lent[2];               /* another's, or NULL */
     double *flat, *up;             /* layer means */
     double *square, *least, *most; /* of each layer: mean of c^2, extremes */
     double *part;                  /* sums of the rows */
@@ -63,6 +64,12 @@ void pressure_free(struct pressure *p)
     void *const all[] = {p->flat, p->up, p->square, p->least, p->most, p->part, p};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
+}
+
+void pressure_lend(struct pressure *p, double *one, double *other)
+{
+    p->lent[0] = one;
+    p->lent[1] = other;
 }
 
 void pressure_method(struct pressure *p, enum pressure_method method)
@@ -447,7 +454,7 @@ static struct krylov *krylov_for(struct pressure *p, bool in_double)
     const struct krylov_kind *const kind = in_double ? &krylov_double : &krylov_single;
     struct krylov **const w = &p->krylov[in_double];
     if (!*w)
-        *w = kind->create(b, periodic, p->direct);
+        *w = kind->create(b, periodic, p->direct, p->lent[0] ? p->lent : NULL);
     return *w;
 }
 
@@ -455,7 +462,8 @@ static struct krylov *krylov_for(struct pressure *p, bool in_double)
 static double solve_directly(struct pressure *p, double *const c[3], double shift,
                              const double *rhs, double mean, double *phi)
 {
-    struct krylov *const w = krylov_for(p, true);
+    struct krylov scratch = {.real = sizeof(double), .r = p->lent[0], .x = p->lent[1]};
+    struct krylov *const w = p->lent[0] ? &scratch : krylov_for(p, true);
     residual(p, c, shift, rhs, mean, phi, 1.0, w);
     poisson_solve_double(p->direct, p->flat, p->up, shift, w->r, w->x, NULL);
     take_correction(p, w, 1.0, phi);
@@ -503,6 +511,8 @@ struct solve pressure_solve(struct pressure *p, double *const c[3], double shift
     const double target = fmax(tolerance * size, floor);
     struct solve result = {.method = choose(p, &s), .contrast = s.most / s.least};
     bool in_double = result.contrast > contrast_double;
+    if (!in_double)
+        krylov_single.start(krylov_for(p, false));
     result.start = result.end =
         residual(p, c, shift, rhs, mean, phi, unit, krylov_for(p, in_double));
     if (result.end > target && p->method == PRESSURE_AUTO && layered(p, &s, c)) {

@@ -31,6 +31,9 @@ struct pressure *pressure_create(const struct grid *g, const struct domain *d,
                                  const enum poisson_side side[6]);
 void pressure_free(struct pressure *p);
 
+/* Before the first solve: two grid fields of the caller that later solves use as scratch. */
+void pressure_lend(struct pressure *p, double *one, double *other);
+
 /* Which method later solves take; AUTO (the default) chooses by the field. */
 void pressure_method(struct pressure *p, enum pressure_method method);
 

@@ -59,7 +59,7 @@ const struct key fluid_keys[] = {
 
 struct fluid_work {
     struct pressure *pressure;
-    double *conductivity[3]; /* m^2/B on faces, m2/(Pa s) */
+    double *conductivity[3]; /* m^2/B on faces, m2/(Pa s); scratch of the coupling, as rhs */
     double *rhs, *p_new, *dp;
     double *made;        /* 1/s, q at the end of the step */
     double *u_before[3]; /* solved in the round before */
@@ -147,13 +147,14 @@ void fluid_create(struct sim *s, struct scene *scene)
     enum poisson_side side[6];
     fluid_pressure_sides(&s->domain, side);
     w->pressure = pressure_create(&s->grid, &s->domain, side);
-    w->rhs = grid_field(&s->grid);
+    pressure_lend(w->pressure, s->coupling.seen[1], s->coupling.seen[2]);
+    w->rhs = s->coupling.seen[0];
     w->p_new = grid_field(&s->grid);
     w->dp = grid_field(&s->grid);
     w->made = grid_field(&s->grid);
     s->fluid.rate = grid_field(&s->grid);
     for (int a = 0; a < 3; a++) {
-        w->conductivity[a] = grid_field(&s->grid);
+        w->conductivity[a] = s->coupling.K[a];
         w->u_before[a] = grid_field(&s->grid);
     }
     series_add(&s->series, "pressure_iterations", "1", "iterations of the last head solve",
@@ -167,13 +168,11 @@ void fluid_free(struct sim *s)
     struct fluid_work *const w = s->fluid.work;
     if (w && s->fluid.p) {
         pressure_free(w->pressure);
-        xfree(w->rhs);
         xfree(w->p_new);
         xfree(w->dp);
         xfree(w->made);
         xfree(s->fluid.rate);
         for (int a = 0; a < 3; a++) {
-            xfree(w->conductivity[a]);
             xfree(w->u_before[a]);
         }
         fluid_state_free(s);

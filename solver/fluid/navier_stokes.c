@@ -75,9 +75,11 @@ struct fluid_work {
     struct poisson *direct;     /* without */
     double *one;                /* its coefficients, 1 */
     double *old[3];             /* N/m3, explicit terms a step ago (state) */
-    double *now[3]; /* without grains the new velocities; with, R, then the coefficient w */
-    double *dp;     /* Pa */
-    double *rhs;    /* 1/s, with grains */
+    double
+        *now[3]; /* without grains the new velocities; with, R, then the coefficient w (scratch
+                       of the coupling, as rhs) */
+    double *dp;  /* Pa */
+    double *rhs; /* 1/s, with grains */
     double tolerance, courant;
     double iterations; /* of the last pressure solve, for the series */
     double rate;       /* 1/s, Courant number over the step, at the last step (state) */
@@ -131,7 +133,7 @@ static void create_fields(struct sim *s)
     static const char *const names[3] = {"explicit_x", "explicit_y", "explicit_z"};
     for (int a = 0; a < 3; a++) {
         ns->old[a] = grid_field(g);
-        ns->now[a] = grid_field(g);
+        ns->now[a] = s->fluid.bare ? grid_field(g) : s->coupling.K[a];
         fields_add(&s->fields,
                    (struct field){names[a], "N m-3", "explicit terms of momentum a step ago",
                                   (enum place)(PLACE_FACE_X + a), KIND_REAL,
@@ -139,7 +141,7 @@ static void create_fields(struct sim *s)
     }
     ns->dp = grid_field(g);
     if (!s->fluid.bare) { /* the last change is the guess of the next */
-        ns->rhs = grid_field(g);
+        ns->rhs = s->coupling.seen[0];
         fields_add(&s->fields,
                    (struct field){"pressure_change", "Pa", "change of the pressure in a step",
                                   PLACE_CELL, KIND_REAL, (void **)&ns->dp, FIELD_STATE});
@@ -182,6 +184,7 @@ void fluid_create(struct sim *s, struct scene *scene)
             ns->one[k] = 1.0;
     } else {
         ns->pressure = pressure_create(&s->grid, &s->domain, side);
+        pressure_lend(ns->pressure, s->coupling.seen[1], s->coupling.seen[2]);
         series_add(&s->series, "pressure_iterations", "1", "iterations of the pressure solve",
                    &ns->iterations);
     }
@@ -204,9 +207,10 @@ void fluid_free(struct sim *s)
     diffusion_free(&ns->diffusion);
     for (int a = 0; a < 3; a++) {
         xfree(ns->old[a]);
-        xfree(ns->now[a]);
+        if (s->fluid.bare)
+            xfree(ns->now[a]);
     }
-    void *const all[] = {ns->one, ns->dp, ns->rhs, s->fluid.rate, ns};
+    void *const all[] = {ns->one, ns->dp, s->fluid.rate, ns};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
     fluid_state_free(s);
