@@ -10,6 +10,7 @@
 #include "units.h"
 
 enum { ARROWS = 26, LEFT = 95, RIGHT = 165, TOP = 80, BOTTOM = 80 };
+enum { LETTER = 10, TICK_ACROSS = 60, TICK_UP = 35 }; /* pixels of a letter, between ticks */
 
 struct slice {
     size_t n[3], times;
@@ -176,23 +177,36 @@ struct look {
     bool from_zero, arrows;
 };
 
+/* Ticks of one axis of this length, 1, 2 or 5 times a power of ten apart, no more than `most`. */
+static void send_ticks(FILE *to, char axis, double length, int most)
+{
+    const double least = length / (most > 1 ? most : 1), ten = pow(10.0, floor(log10(least)));
+    const double times = least / ten;
+    fprintf(to, "set %ctics %.10g\n", axis,
+            ten * (times <= 1.0   ? 1.0
+                   : times <= 2.0 ? 2.0
+                   : times <= 5.0 ? 5.0
+                                  : 10.0));
+}
+
 static void draw_slice(const struct run_file *r, const struct slice *f, const struct look *l,
                        const double *value)
 {
     const double wide = f->unit * f->size[f->across], high = f->unit * f->size[f->up];
     const double scale = fmin(900.0 / wide, 700.0 / high);
     const int across = (int)fmax(120.0, wide * scale), up = (int)fmax(120.0, high * scale);
-    const int width = across + LEFT + RIGHT < 560 ? 560 : across + LEFT + RIGHT;
-    const int height = up + TOP + BOTTOM, from = (width - across - LEFT - RIGHT) / 2 + LEFT;
     double range[2];
-    struct picture p = picture_open(r, l->file, width, height);
-    FILE *const to = p.gnuplot;
     char *const scene = picture_scene(r);
     const bool pure = strcmp(l->unit, "1") == 0;
     char *const title =
         xprintf("%s: %s%s%s, t = %.4g s, %c = %.4g %s", scene, l->what, pure ? "" : ", ",
                 pure ? "" : l->unit, f->time, 'x' + f->axis,
                 f->unit * ((double)f->layer + 0.5) * f->h[f->axis], f->unit > 1.0 ? "mm" : "m");
+    const int words = LETTER * (int)strlen(title) + 40, all = across + LEFT + RIGHT;
+    const int width = words > all ? words : all;
+    const int height = up + TOP + BOTTOM, from = (width - all) / 2 + LEFT;
+    struct picture p = picture_open(r, l->file, width, height);
+    FILE *const to = p.gnuplot;
     send_values(to, f, value, range);
     const double span = range[1] - range[0];
     const double size = fmax(fabs(range[0]), fabs(range[1]));
@@ -215,6 +229,8 @@ static void draw_slice(const struct run_file *r, const struct slice *f, const st
             f->unit > 1.0 ? "mm" : "m", l->palette, range[0], range[1], wide, high,
             (double)from / width, (double)(from + across) / width, (double)BOTTOM / height,
             (double)(BOTTOM + up) / height);
+    send_ticks(to, 'x', wide, across / TICK_ACROSS);
+    send_ticks(to, 'y', high, up / TICK_UP);
     const bool arrows = l->arrows && range[1] > 0.0 && span > 0.0;
     if (arrows)
         send_arrows(to, f, range[1]);
