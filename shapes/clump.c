@@ -7,6 +7,7 @@
  * contact a pair. */
 #include <string.h>
 #include "../solver/ball_sets.h"
+#include "../solver/ball_surface.h"
 #include "../solver/bed_file.h"
 #include "shape.h"
 
@@ -260,5 +261,36 @@ static const struct shape_ball *balls(int species, int *n)
     return forms[species].ball;
 }
 
-const struct shape shape = {
-    .path = &contact_points, .init = init, .free = release, .points = points, .balls = balls};
+static void surface(int species, struct shape_canvas *c)
+{
+    ball_surface(forms[species].as_ball, forms[species].n, c);
+}
+
+static struct shape_part *parts(int species, double spacing, int *n)
+{
+    return ball_parts(forms[species].as_ball, forms[species].n, spacing, n);
+}
+
+/* The shadow is the union of the discs that the spheres throw. */
+static double crosswise(int species, vec3 flow)
+{
+    const struct form *const f = &forms[species];
+    const vec3 e = wall_across(flow), g = v3_cross(flow, e);
+    struct disc *const d = xalloc((size_t)f->n, sizeof *d);
+    for (int k = 0; k < f->n; k++) {
+        const vec3 c = f->ball[k].centre;
+        d[k] = (struct disc){v3_dot(c, e), v3_dot(c, g), f->ball[k].radius};
+    }
+    const double area = disc_union(d, f->n, NULL).area;
+    xfree(d);
+    return 3.14159265358979323846 / area;
+}
+
+const struct shape shape = {.path = &contact_points,
+                            .init = init,
+                            .free = release,
+                            .points = points,
+                            .balls = balls,
+                            .surface = surface,
+                            .parts = parts,
+                            .crosswise = crosswise};

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include "output_file.h"
+#include "surface_file.h"
 #include "xdmf.h"
 
 static struct output_file out = {.nc = -1};
@@ -148,6 +149,7 @@ void output_close(struct sim *s)
     f->count = NULL;
     output_file_close(f);
     xdmf_write(s, times, n, count);
+    surface_file_stl(s);
     xfree(count);
     write_summary(s);
     xfree(times);

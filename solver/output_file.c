@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include "output_walls.h"
 #include "provenance_info.h"
+#include "surface_file.h"
 
 /* HDF5 cleans up at exit, and crashes there after a write that failed (1.10.8, a full disk):
  * the program would end with a signal instead of its exit code. So it leaves without that. */
@@ -260,13 +261,17 @@ void output_file_open(struct output_file *f, const struct sim *s, const char *na
         define_axes(f, s);
     define_fields(f, s);
     output_walls_define(f, s);
+    if (has_grains(s))
+        surface_file_define(f, s);
 }
 
 void output_file_begin(struct output_file *f, const struct sim *s)
 {
     output_check(f, nc_enddef(f->nc));
-    if (has_grains(s))
+    if (has_grains(s)) {
         write_components(f);
+        surface_file_write(f, s);
+    }
     if (has_grains(s) && !f->varies)
         write_grains(f, s);
     if (s->fluid.exists)

@@ -2,6 +2,7 @@
  * output, and beside them the porosity over height (the mean of each layer of cells) on the
  * same axis of height. The viewer looks along y; the nearest grains are drawn last. Colour is
  * speed, or the species where all is at rest. Walls as of picture_walls.h. */
+#include "picture_shapes.h"
 #include "picture_walls.h"
 
 #include <math.h>
@@ -17,6 +18,10 @@ struct bed {
     double size[3];         /* m, of the box */
     double low[2], high[2]; /* m, range of x and z shown */
     double *radius[2], *species[2], *time;
+    bool shaped; /* the grains are no spheres */
+    struct shapes_seen shapes;
+    double *turn[2];
+    double period;           /* m, of x; 0: none */
     double *pos[2], *vel[2]; /* n x 3 */
     double fastest; /* m/s, the 99th percentile: a few outliers do not rule the scale */
     bool profile;
@@ -24,6 +29,13 @@ struct bed {
     int x0, z0;     /* pixels: where the panels begin */
     int across, up; /* pixels: size of a panel */
 };
+
+enum { SPEED_STOPS = 4 };
+static const struct {
+    double at;
+    const char *colour;
+} speed_stop[SPEED_STOPS] = {
+    {0.0, "#e2e9f0"}, {0.3, "#9cc3e0"}, {0.65, "#4288c4"}, {1.0, "#0c3a78"}};
 
 static double speed(const double *vel, size_t i)
 {
@@ -126,6 +138,8 @@ static bool read_bed(const struct run_file *r, struct bed *b)
         b->shown[0] = b->times - 1;
     }
     bool good = true;
+    b->shaped = picture_shapes_read(r, &b->shapes);
+    b->period = periodic[0] ? b->size[0] : 0.0;
     for (int k = 0; k < b->panels; k++)
         good = read_sizes(r, b, k, count) && good;
     xfree(count);
@@ -133,6 +147,8 @@ static bool read_bed(const struct run_file *r, struct bed *b)
         b->pos[k] = run_record(r, "position", b->shown[k], &got[0]);
         b->vel[k] = run_record(r, "velocity", b->shown[k], &got[1]);
         good = b->pos[k] && b->vel[k] && got[0] >= 3 * b->n[k] && got[1] >= 3 * b->n[k];
+        b->turn[k] = b->shaped ? run_record(r, "orientation", b->shown[k], &n) : NULL;
+        good = good && (!b->shaped || (b->turn[k] && n >= 4 * b->n[k]));
         if (good)
             b->fastest = fmax(b->fastest, percentile_99(b->vel[k], b->n[k]));
     }
@@ -216,16 +232,16 @@ static void set_colours(const struct run_file *r, const struct picture *p, const
 {
     FILE *const to = p->gnuplot;
     if (b->fastest > 0.0) {
-        fprintf(
-            to,
-            "set palette defined (0 '#e2e9f0', 0.3 '#9cc3e0', 0.65 '#4288c4', 1 '#0c3a78')\n"
-            "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics %g scale 0.4\n"
-            "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
-            "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
-            1e3 * b->fastest, round_step(1e3 * b->fastest), (double)LEFT / p->width,
-            62.0 / p->height, 260.0 / p->width, 14.0 / p->height,
-            b->n[b->panels - 1] >= 100 ? " (the fastest 1 % lie above the scale)" : "",
-            (LEFT + 275.0) / p->width, 69.0 / p->height);
+        fprintf(to,
+                "set palette defined (0 '%s', 0.3 '%s', 0.65 '%s', 1 '%s')\n"
+                "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics %g scale 0.4\n"
+                "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
+                "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
+                speed_stop[0].colour, speed_stop[1].colour, speed_stop[2].colour,
+                speed_stop[3].colour, 1e3 * b->fastest, round_step(1e3 * b->fastest),
+                (double)LEFT / p->width, 62.0 / p->height, 260.0 / p->width, 14.0 / p->height,
+                b->n[b->panels - 1] >= 100 ? " (the fastest 1 % lie above the scale)" : "",
+                (LEFT + 275.0) / p->width, 69.0 / p->height);
         return;
     }
     char *const names = run_text(r, run_variable(r, "grain_species"), "flag_meanings");
@@ -249,13 +265,67 @@ static void set_colours(const struct run_file *r, const struct picture *p, const
     xfree(names);
 }
 
+/* "#9cc3e0" to three numbers. */
+static void read_colour(const char *hex, double out[3])
+{
+    unsigned int rgb[3] = {0};
+    sscanf(hex, "#%2x%2x%2x", &rgb[0], &rgb[1], &rgb[2]);
+    for (int a = 0; a < 3; a++)
+        out[a] = rgb[a];
+}
+
+/* The colour of a speed between 0 and 1, as the palette has it. */
+static void speed_colour(double x, double out[3])
+{
+    double low[3], high[3];
+    int k = 1;
+    while (k < SPEED_STOPS - 1 && x > speed_stop[k].at)
+        k++;
+    const double from = speed_stop[k - 1].at,
+                 part = (fmin(x, 1.0) - from) / (speed_stop[k].at - from);
+    read_colour(speed_stop[k - 1].colour, low);
+    read_colour(speed_stop[k].colour, high);
+    for (int a = 0; a < 3; a++)
+        out[a] = low[a] + part * (high[a] - low[a]);
+}
+
+/* Grains that are no spheres, as an image: x, z in mm, red, green, blue. */
+static void send_shapes(FILE *to, const struct bed *b, int k)
+{
+    double *const colour = xalloc(3 * b->n[k] + 1, sizeof *colour);
+    for (size_t i = 0; i < b->n[k]; i++)
+        if (b->fastest > 0.0)
+            speed_colour(speed(b->vel[k], i) / b->fastest, &colour[3 * i]);
+        else
+            read_colour(picture_colour[(int)b->species[k][i] % PICTURE_COLOURS],
+                        &colour[3 * i]);
+    const struct shapes_view v = {.n = b->n[k],
+                                  .pos = b->pos[k],
+                                  .radius = b->radius[k],
+                                  .species = b->species[k],
+                                  .turn = b->turn[k],
+                                  .colour = colour,
+                                  .low = {b->low[0], b->low[1]},
+                                  .high = {b->high[0], b->high[1]},
+                                  .period = b->period,
+                                  .across = b->across,
+                                  .up = b->up};
+    fprintf(to, "$g%d << END\n", k);
+    picture_shapes_send(to, &b->shapes, &v);
+    fprintf(to, "END\n");
+    xfree(colour);
+}
+
 static void draw_grains(const struct picture *p, const struct bed *b, int k)
 {
     FILE *const to = p->gnuplot;
     const double half = b->fastest > 0.0 ? 0.0 : 0.5; /* middle of a species' colour */
     char name[16];
     snprintf(name, sizeof name, "w%d", k);
-    send_grains(to, b, k);
+    if (b->shaped)
+        send_shapes(to, b, k);
+    else
+        send_grains(to, b, k);
     if (b->walls[k].n > 0)
         picture_walls_send(to, name, &b->walls[k], PICTURE_CUT * b->size[1]);
     set_margins(p, b, b->x0 + k * panel_step(b), b->across);
@@ -263,7 +333,13 @@ static void draw_grains(const struct picture *p, const struct bed *b, int k)
             b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0]);
     if (b->walls[k].n > 0)
         picture_walls_behind(to, name);
-    fprintf(to, "$g%d using 1:2:3:($4+%g) with circles lc palette lw 0.4", k, half);
+    if (b->shaped) /* the second plot draws nothing but has a scale of colours */
+        fprintf(to,
+                "$g%d using 1:2:3:4:5:6 with rgbalpha, '+' using (-1e9):(-1e9):(0) with points "
+                "palette",
+                k);
+    else
+        fprintf(to, "$g%d using 1:2:3:($4+%g) with circles lc palette lw 0.4", k, half);
     if (b->walls[k].n > 0)
         picture_walls_cut(to, name);
     fprintf(to, "\nunset label\nunset colorbox\nset ylabel ''\n");
@@ -323,8 +399,10 @@ void picture_bed(const struct run_file *r)
         draw(r, &b);
     picture_walls_free(&b.walls[0]);
     picture_walls_free(&b.walls[1]);
-    void *const all[] = {b.radius[0], b.radius[1], b.species[0], b.species[1], b.time,
-                         b.pos[0],    b.pos[1],    b.vel[0],     b.vel[1]};
+    picture_shapes_free(&b.shapes);
+    void *const all[] = {b.turn[0],    b.turn[1],    b.radius[0], b.radius[1],
+                         b.species[0], b.species[1], b.time,      b.pos[0],
+                         b.pos[1],     b.vel[0],     b.vel[1]};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }

@@ -33,7 +33,10 @@ static void attribute(FILE *o, const struct field *field, const char *centre, si
                       size_t n_time, int n, const int *dims, int most)
 {
     fprintf(o, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">\n", field->name,
-            field->kind == KIND_VEC3 ? "Vector" : "Scalar", centre);
+            field->kind == KIND_VEC3   ? "Vector"
+            : field->kind == KIND_QUAT ? "Matrix"
+                                       : "Scalar",
+            centre);
     item(o, field->name, t, n_time, n, dims, most);
     fprintf(o, "</Attribute>\n");
 }
@@ -42,7 +45,7 @@ static void attribute(FILE *o, const struct field *field, const char *centre, si
 static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double time, int n,
                    int most, bool varies)
 {
-    const int dims[2] = {n, 3};
+    const int dims[2] = {n, 3}, four[2] = {n, 4};
     fprintf(o,
             "<Grid Name=\"grains\"><Time Value=\"%.17g\"/>\n"
             "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%d\" "
@@ -62,8 +65,9 @@ static void grains(FILE *o, const struct sim *s, size_t t, size_t n_time, double
     for (int i = 0; i < s->fields.n; i++) {
         const struct field *const f = &s->fields.field[i];
         if (f->place == PLACE_GRAIN && f->flags & FIELD_OUTPUT && f->kind != KIND_INT &&
-            f->kind != KIND_QUAT && strcmp(f->name, "position") != 0)
-            attribute(o, f, "Node", t, n_time, f->kind == KIND_VEC3 ? 2 : 1, dims, most);
+            strcmp(f->name, "position") != 0)
+            attribute(o, f, "Node", t, n_time, f->kind == KIND_REAL ? 1 : 2,
+                      f->kind == KIND_QUAT ? four : dims, most);
     }
     fprintf(o, "</Grid>\n");
 }
