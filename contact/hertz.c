@@ -6,6 +6,7 @@
  * although the contact does not pull (restitution.c). */
 #include "contact.h"
 
+#include <string.h>
 #include "../solver/elastic.h"
 #include "pairs.h"
 #include "spring.h"
@@ -39,6 +40,7 @@ void contact_init(struct scene *s, const struct materials *m)
         return;
     elastic_read(s, m, &elastic);
     elastic_damping(s, m, 0.0, false, zeta);
+    memcpy(elastic.zeta, zeta, sizeof zeta);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
         table[p][HERTZ] = (real)(4.0 / 3.0 * elastic.e_star[p]);
         table[p][CN] = (real)(tsuji * zeta[p] * sqrt(2.0 * elastic.e_star[p]));

@@ -17,6 +17,7 @@
  * its stiffness grows with the load. */
 #include "contact.h"
 
+#include <string.h>
 #include "../solver/elastic.h"
 #include "pairs.h"
 #include "spring.h"
@@ -56,6 +57,7 @@ void contact_init(struct scene *s, const struct materials *m)
         return;
     elastic_read(s, m, &elastic);
     elastic_damping(s, m, (double)NAN, false, zeta);
+    memcpy(elastic.zeta, zeta, sizeof zeta);
     materials_pair_values(s, m, "friction", MIX_GEOMETRIC, friction);
     for (int p = 0; p < m->n * m->n && scene_errors(s) == 0; p++) {
         const double e = elastic.e_star[p], s_max = friction[p] * e / (4.0 * elastic.g_star[p]);

@@ -144,7 +144,10 @@ double contact_duration(int a, int b, double m_eff, double r_eff, double v)
 {
     (void)r_eff;
     (void)v;
-    return 3.14159265358979323846 * sqrt(m_eff / k_n[a * materials + b]);
+    const int p = a * materials + b;
+    const double damping = (double)table[p][CN] * sqrt(m_eff) + (double)table[p][BN];
+    return duration_damped(3.14159265358979323846 * sqrt(m_eff / k_n[p]),
+                           damping / (2.0 * sqrt(k_n[p] * m_eff)));
 }
 
 double contact_rayleigh(int a, double radius, double density)

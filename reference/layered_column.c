@@ -241,7 +241,8 @@ void reference_report(struct sim *s)
                                  .unit = "m s-1",
                                  .got = got,
                                  .want = u,
-                                 .error = fmax(worst, fabs(flux_error)),
+                                 .error = isnan(flux_error) ? flux_error
+                                                            : fmax(worst, fabs(flux_error)),
                                  .tolerance = p->tolerance});
     summary_text(sum, "verdict", good ? "pass" : "FAIL");
     printf(

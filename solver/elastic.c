@@ -52,7 +52,13 @@ double elastic_duration(const struct elastic *e, int a, int b, double m_eff, dou
                         double v)
 {
     const double e_star = e->e_star[a * e->n + b];
-    return 2.87 * pow(m_eff * m_eff / (r_eff * e_star * e_star * v), 0.2);
+    return duration_damped(2.87 * pow(m_eff * m_eff / (r_eff * e_star * e_star * v), 0.2),
+                           e->zeta[a * e->n + b]);
+}
+
+double duration_damped(double t, double zeta)
+{
+    return t * fmin(1.0, 4.0 * 0.75 * damping_step(zeta) / 3.14159265358979323846);
 }
 
 double elastic_rayleigh(const struct elastic *e, int a, double radius, double density)

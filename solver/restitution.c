@@ -52,3 +52,8 @@ double damping_ratio(double e)
         return cosh(root(over_damped, edge, 1.0 - log_e, log_e));
     return 1.0;
 }
+
+double damping_step(double zeta)
+{
+    return 2.0 * (sqrt(1.0 + zeta * zeta) - zeta);
+}

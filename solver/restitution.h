@@ -7,4 +7,8 @@
  * 2 zeta sqrt(k m) and for Hertz with Tsuji's dashpot 2 sqrt(5/6) zeta sqrt(S_n m). */
 double damping_ratio(double e);
 
+/* omega dt up to which velocity Verlet, whose dashpots feel the velocity of the half step before, is
+ * stable for a spring with dashpot 2 zeta sqrt(k m): 2 (sqrt(1 + zeta^2) - zeta). */
+double damping_step(double zeta);
+
 #endif

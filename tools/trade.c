@@ -129,6 +129,10 @@ static void print_table(const struct trade *t)
             printf(" %s: %.120s\n", ending_name[v->ending], v->reason);
             continue;
         }
+        if (isnan(t->error[i]) && v->reason[0]) {
+            printf(" %s\n", v->reason);
+            continue;
+        }
         printf(" %11.4g %11.4g", t->error[i], t->cost[i]);
         print_spread(t, i);
         printf(" %11.4g %8.3g\n", t->core[i], t->memory[i] / 1048576.0);

@@ -25,6 +25,7 @@ struct point {
     enum verdict verdict;
     double error;             /* NaN: none */
     double ratio[MOST_NAMES]; /* step over limit, by limit; NaN: not named by `check` there */
+    bool binding[MOST_NAMES]; /* not of accuracy only */
 };
 
 /* Between two points of a line the verdict changes. */
@@ -47,7 +48,7 @@ struct extremes {
     struct point *point; /* in the order in which they were run */
     int n_names;
     char name[MOST_NAMES][64]; /* of limits */
-    bool binding[MOST_NAMES];
+    bool binds[MOST_NAMES];    /* at some point */
     int n_edges;
     struct edge edge[MOST_EDGES];
     int shown[MOST_AXES]; /* values of each axis that were asked for: the first so many */

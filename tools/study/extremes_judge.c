@@ -91,7 +91,6 @@ static int name_index(struct extremes *x, const struct limit *l)
     if (x->n_names == MOST_NAMES)
         return -1;
     memcpy(x->name[x->n_names], l->name, sizeof x->name[0]);
-    x->binding[x->n_names] = l->binding;
     return x->n_names++;
 }
 
@@ -105,8 +104,11 @@ static void predict(struct extremes *x, struct point *p)
     const int n = limits_read(&x->study, p->v->binary, p->v->overrides, p->v->n_overrides, l);
     for (int i = 0; i < n; i++) {
         const int k = name_index(x, &l[i]);
-        if (k >= 0)
-            p->ratio[k] = l[i].used / l[i].limit;
+        if (k < 0)
+            continue;
+        p->ratio[k] = l[i].used / l[i].limit;
+        p->binding[k] = l[i].binding;
+        x->binds[k] = x->binds[k] || l[i].binding;
     }
 }
 
@@ -146,7 +148,7 @@ double extremes_ratio(const struct extremes *x, const struct point *p, int *whic
     double most = (double)NAN;
     *which = -1;
     for (int i = 0; i < x->n_names; i++)
-        if (x->binding[i] && isfinite(p->ratio[i]) && !(p->ratio[i] <= most)) {
+        if (p->binding[i] && isfinite(p->ratio[i]) && !(p->ratio[i] <= most)) {
             most = p->ratio[i];
             *which = i;
         }

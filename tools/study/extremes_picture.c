@@ -178,8 +178,7 @@ void extremes_draw(const struct extremes *x)
     for (int k = 0, line = 0; k < x->n_names; k++) {
         if (!drawn[k])
             continue;
-        char *const name =
-            xprintf("limit: %s%s", x->name[k], x->binding[k] ? "" : " (accuracy)");
+        char *const name = xprintf("limit: %s%s", x->name[k], x->binds[k] ? "" : " (accuracy)");
         char *const q = picture_quoted(name);
         fprintf(to, ", $l%d with lines lw 3 dt %d lc '#111111' title %s", k, 1 + line++ % 5, q);
         xfree(name);

@@ -17,9 +17,10 @@ const struct named_axis named_axes[] = {
     {"restitution", "0.01,0.05,0.2,0.5,0.8,0.95,1", "of every material"},
     {"friction", "0,0.01,0.1,0.5,1,3,10", "of every material"},
     {"size_ratio", "1:100:5",
-     "diameter of the first species over that of the second; of one: evenly spread sizes"},
-    {"porosity", "0.26,0.3,0.4,0.6,0.9,0.99,0.999,0.9999",
-     "of fcc unit cells, two of them in each direction of the box, whose size follows"},
+     "diameter of the first species over that of the second; of one: log-normal sizes below "
+     "its own"},
+    {"void_fraction", "0.26,0.3,0.4,0.6,0.9,0.99,0.999,0.9999",
+     "of a box of two fcc unit cells in each direction, a cell of the grid each"},
     {"cell_d", "0.25,0.5,1,2,4,8,10", "edge of a cell of the fluid's grid over the diameter"},
     {"reynolds", "1e-8:1e6:8",
      "of a grain: by the inflow, or else by the viscosity in which it falls so"},
@@ -132,10 +133,10 @@ static bool size_ratio(struct expansion *e)
     }
     if (e->x == 1.0)
         return true;
-    put(e, "grains %s.sizes=uniform", sp->name);
-    put(e, "grains %s.sizes_by=number", sp->name);
+    put(e, "grains %s.sizes=lognormal", sp->name);
+    put(e, "grains %s.spread=%.9g", sp->name, fmin(10.0, pow(e->x, 1.0 / 3.0)));
     put(e, "grains %s.diameter_min=%.9g m", sp->name, sp->d / e->x);
-    put(e, "grains %s.diameter_max=%.9g m", sp->name, sp->d);
+    put(e, "grains %s.diameter_max=%.9g m", sp->name, 1.001 * sp->d);
     return true;
 }
 
@@ -147,15 +148,17 @@ static void pack(struct expansion *e, const struct species_view *sp, double eps)
     put(e, "grains %s.cell=fcc", sp->name);
     put(e, "grains %s.spacing=%.15g m", sp->name, a);
     put(e, "domain.size=%.15g %.15g %.15g m", 2.0 * a, 2.0 * a, 2.0 * a);
+    if (e->v.fluid)
+        put(e, "domain.cells=2 2 2");
 }
 
-static bool porosity(struct expansion *e)
+static bool void_fraction(struct expansion *e)
 {
     const struct species_view *const sp = main_species(&e->v);
     if (!sp || e->v.n > 1)
         return refuse(e, "for scenes with one species of one diameter");
     if (!(e->x > 0.0 && e->x < 1.0))
-        return refuse(e, "a porosity lies between 0 and 1");
+        return refuse(e, "a void fraction lies between 0 and 1");
     pack(e, sp, e->x);
     return true;
 }
@@ -322,8 +325,8 @@ static bool special_case(struct expansion *e)
 }
 
 static bool (*const expand[])(struct expansion *) = {
-    density_ratio, stiffness, restitution, friction,   size_ratio, porosity, cell_d,
-    reynolds,      viscosity, grain_step,  fluid_step, drag_dt,    contrast, special_case};
+    density_ratio, stiffness, restitution, friction,   size_ratio, void_fraction, cell_d,
+    reynolds,      viscosity, grain_step,  fluid_step, drag_dt,    contrast,      special_case};
 
 static int find(const char *name)
 {

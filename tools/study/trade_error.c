@@ -156,16 +156,33 @@ static double in_table(const struct trade *t, const struct variant *v, const cha
     return found;
 }
 
-static const struct summary_entry *entry_of(const struct trade *t, const struct variant *v,
-                                            const char *key)
+/* The number of that line; NaN, and a reason for the table, where the summary has none. */
+static double number_of(struct variant *v, const char *key)
 {
     const struct summary_entry *const e = result_find(&v->result, key);
-    if (!e || !e->is_number)
+    if (e && e->is_number)
+        return e->number;
+    xfree(v->reason);
+    v->reason = xprintf("its summary has no number %s", key);
+    return (double)NAN;
+}
+
+/* Ends the program if no variant that has run has such a line. */
+static void need_line(const struct trade *t, const char *key)
+{
+    int good = 0;
+    for (int i = 0; i < t->study.n; i++) {
+        const struct variant *const v = t->study.variant[i];
+        const struct summary_entry *const e = result_find(&v->result, key);
+        good += v->ending == RUN_GOOD;
+        if (e && e->is_number)
+            return;
+    }
+    if (good > 0)
         die(EXIT_SCENE, "%s has no number %s in its summary%s", t->study.scene, key,
             strcmp(key, "reference_error") == 0
                 ? ": name a reference in the scene, or ask for --quantity KEY --against finest"
                 : "");
-    return e;
 }
 
 void trade_errors(struct trade *t)
@@ -176,18 +193,21 @@ void trade_errors(struct trade *t)
     if (t->against == AGAINST_FINEST)
         for (int q = 0; q < nq; q++)
             find_finest(t, q);
+    if (nq == 0)
+        need_line(t, t->error_key ? t->error_key : "reference_error");
+    for (int q = 0; q < nq; q++)
+        need_line(t, t->quantity[q]);
     for (int i = 0; i < n; i++) {
-        const struct variant *const v = t->study.variant[i];
+        struct variant *const v = t->study.variant[i];
         if (v->ending != RUN_GOOD)
             continue;
         if (nq == 0) {
-            t->error[i] =
-                fabs(entry_of(t, v, t->error_key ? t->error_key : "reference_error")->number);
+            t->error[i] = fabs(number_of(v, t->error_key ? t->error_key : "reference_error"));
             continue;
         }
         t->error[i] = 0.0;
         for (int q = 0; q < nq; q++) {
-            const double got = entry_of(t, v, t->quantity[q])->number;
+            const double got = number_of(v, t->quantity[q]);
             const double want = t->against == AGAINST_FILE    ? in_table(t, v, t->quantity[q])
                                 : t->against == AGAINST_VALUE ? strtod(t->against_text, NULL)
                                                               : t->truth[q];
