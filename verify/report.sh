@@ -73,7 +73,7 @@ tests() {
     for log in "$from"/tests/*.log; do
         [ -e "$log" ] || continue
         name=$(basename "$log" .log)
-        counts=$(tail -n 1 "$log")
+        counts=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1)
         printf '<details><summary>%s: %s, %s s%s</summary>\n' "$name" "$counts" \
             "$(cat "${log%.log}.seconds")" \
             "$(grep -q ', 0 failed$' <<< "$counts" || echo ' <b class="bad">FAIL</b>')"

@@ -128,7 +128,8 @@ static bool read_limit(const char *line, struct limit *l)
         double used, limit, ratio;
         if (at[-1] == ' ' &&
             sscanf(at, "%lf %31s %lf %31s %lf", &used, unit[0], &limit, unit[1], &ratio) == 5 &&
-            strcmp(unit[0], "s") == 0 && strcmp(unit[1], "s") == 0) {
+            strcmp(unit[0], unit[1]) == 0 &&
+            (strcmp(unit[0], "s") == 0 || strncmp(line, "lightness", 9) == 0)) {
             int n = (int)(at - line);
             while (n > 0 && line[n - 1] == ' ')
                 n--;
