@@ -11,7 +11,7 @@
 const struct about porosity_about = {.name = "centre",
                                      .summary = "all of a grain in the cell of its centre",
                                      .equation = "w = 1 in the cell of the centre",
-                                     .source = "",
+                                     .source = "[HockneyEastwood88, sect. 5-3], nearest point",
                                      .range = "cells of 4 diameters or more"};
 const struct key porosity_keys[] = {{0}};
 const int porosity_displaces = 1;
