@@ -29,8 +29,8 @@ if command -v liggghts > /dev/null; then
     (cd "$tmp" && OMP_NUM_THREADS=1 liggghts -in "$OLDPWD/bench/clumps.lig" -var n "$clumps" -var side "$side" \
         -var settle $settle -var steps "$steps" > log.lig 2>&1)
     sed -n '/^TIMED/,$p' "$tmp/log.lig" > "$tmp/timed.lig"
-    peer=$(awk '/^Loop time of/ { print $(NF - 1) * $9 / $4 }' "$tmp/timed.lig")
-    near=$(awk '/^Step/ { getline; getline; print $3 }' "$tmp/timed.lig")
+    peer=$(awk '/^Loop time of/ { print $12 * $9 / $4 }' "$tmp/timed.lig")
+    near=$(awk '$1 == "Step" { getline; getline; print $3 }' "$tmp/timed.lig")
     printf '%-28s %10.3g sphere-steps/s, %s contacts a sphere\n' "LIGGGHTS multisphere" "$peer" "$near"
     awk -v a="$silt" -v b="$peer" 'BEGIN { printf "ratio %.2f\n", a / b }'
 fi

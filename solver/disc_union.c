@@ -4,7 +4,7 @@
  * balls, by slices: between heights where the picture changes (a ball begins or ends, two or three
  * meet) the slices' integrals are smooth but for roots at the ends, which z = a + (b - a)(1 - cos
  * t)/2 takes away. The area of the surface is that of the arcs: a slice of a ball's surface of
- * thickness dz has R dz for each radian [Archimedes]. */
+ * thickness dz has R dz for each radian, as Archimedes knew. */
 #include "disc_union.h"
 
 #include <gsl/gsl_integration.h>

@@ -6,7 +6,7 @@
  * and the body turns by the Cayley map of dt I^-1 Mm, which in quaternions is (1, dt I^-1 Mm/2) made
  * a unit one. As the same map takes M0 to M1, the angular momentum in the laboratory stays exactly;
  * as M is moved at right angles to I^-1 Mm, so does the energy (a quadratic form at its midpoint).
- * Time-reversible, second order. It takes the place of the explicit Euler steps of [DilatedPoly,
+ * Time-reversible, second order. It takes the place of the explicit Euler steps of [LiLiuJi23,
  * eqs 24-27], whose energy and norm grow. */
 #include "rotation.h"
 
