@@ -5,7 +5,6 @@
  * the union, each part counted once (disc_union.c), not the sum over spheres that many codes take.
  * A clump of one sphere is a sphere, to the last bit. Also the template for shapes with more than one
  * contact a pair. */
-#include <string.h>
 #include "../solver/ball_sets.h"
 #include "../solver/ball_surface.h"
 #include "../solver/bed_file.h"
@@ -188,49 +187,52 @@ static void release(void)
     n_forms = 0;
 }
 
-/* Spheres of j as seen from x_i, SPHERES_WIDE at a time. */
+/* Spheres as seen from x_i, WIDE at a time. */
 enum { WIDE = 64 };
 
 struct seen_spheres {
     _Alignas(64) double x[WIDE], y[WIDE], z[WIDE], r[WIDE];
 };
 
+/* n: a multiple of LANES; loops of that fixed length are what the compiler turns into plain vectors. */
 static void place(const struct form *f, const struct shape_pose *p, int from, int n,
                   struct seen_spheres *s)
 {
     const struct mat3 m = p->turn;
+    const vec3 centre = p->centre;
     const double size = p->size;
+    for (int b = 0; b < n; b += LANES) {
+        const double *const fx = &f->x[from + b], *const fy = &f->y[from + b],
+                            *const fz = &f->z[from + b], *const fr = &f->r[from + b];
 #pragma omp simd
-    for (int k = 0; k < n; k++) {
-        const double x = size * f->x[from + k], y = size * f->y[from + k],
-                     z = size * f->z[from + k];
-        s->x[k] = m.row[0].x * x + m.row[0].y * y + m.row[0].z * z + p->centre.x;
-        s->y[k] = m.row[1].x * x + m.row[1].y * y + m.row[1].z * z + p->centre.y;
-        s->z[k] = m.row[2].x * x + m.row[2].y * y + m.row[2].z * z + p->centre.z;
-        s->r[k] = size * f->r[from + k];
+        for (int k = 0; k < LANES; k++) {
+            const double x = size * fx[k], y = size * fy[k], z = size * fz[k];
+            s->x[b + k] = m.row[0].x * x + m.row[0].y * y + m.row[0].z * z + centre.x;
+            s->y[b + k] = m.row[1].x * x + m.row[1].y * y + m.row[1].z * z + centre.y;
+            s->z[b + k] = m.row[2].x * x + m.row[2].y * y + m.row[2].z * z + centre.z;
+            s->r[b + k] = size * fr[k];
+        }
     }
 }
 
-/* Touches of sphere a of i, at `c` with radius r, with n spheres of j from `from` on. */
-static int touch(const struct shape_pair *p, const struct form *j, int a, vec3 c, double r,
-                 const struct seen_spheres *s, int from, int n, int most, int count,
-                 struct shape_point *out)
+/* Which of n spheres come within `bound` of a point: their numbers. */
+static inline int within(const struct seen_spheres *s, int n, vec3 c, double bound,
+                         unsigned char *out)
 {
-    unsigned char near[WIDE];
-#pragma omp simd
-    for (int k = 0; k < n; k++) {
-        const double x = c.x - s->x[k], y = c.y - s->y[k], z = c.z - s->z[k];
-        const double cut = r + s->r[k] + p->reach;
-        near[k] = (x * x + y * y + z * z < cut * cut) & (cut > 0.0);
-    }
-    for (int k = 0; k < n; k++) {
-        if (!near[k])
-            continue;
-        const vec3 at = v3(s->x[k], s->y[k], s->z[k]);
-        if (count < most)
-            out[count] = shape_balls_meet(c, r, v3_sub(at, p->j.centre), s->r[k], v3_sub(c, at),
-                                          a * j->n + from + k);
-        count++;
+    int count = 0;
+    for (int b = 0; b < n; b += LANES) {
+        double gap[LANES], least = 0.0;
+#pragma omp simd reduction(min : least)
+        for (int k = 0; k < LANES; k++) {
+            const double x = c.x - s->x[b + k], y = c.y - s->y[b + k], z = c.z - s->z[b + k];
+            const double sum = bound + s->r[b + k], cut = sum > 0.0 ? sum : 0.0;
+            gap[k] = x * x + y * y + z * z - cut * cut;
+            least = gap[k] < least ? gap[k] : least;
+        }
+        for (int k = 0; k < LANES && least < 0.0; k++) {
+            out[count] = (unsigned char)(b + k);
+            count += gap[k] < 0.0;
+        }
     }
     return count;
 }
@@ -238,18 +240,33 @@ static int touch(const struct shape_pair *p, const struct form *j, int a, vec3 c
 static int points(const struct shape_pair *p, int most, struct shape_point *out)
 {
     const struct form *const i = &forms[p->i.species], *const j = &forms[p->j.species];
-    const double bound = p->j.size * j->form.bounding + p->reach;
+    const vec3 origin = v3(0.0, 0.0, 0.0);
+    const double bound_i = p->i.size * i->form.bounding, bound_j = p->j.size * j->form.bounding;
     int count = 0;
-    for (int from = 0; from < j->padded; from += WIDE) {
-        const int n = j->padded - from < WIDE ? j->padded - from : WIDE;
-        struct seen_spheres s;
-        place(j, &p->j, from, n, &s);
-        for (int a = 0; a < i->n; a++) {
-            const vec3 c = mat3_turn(&p->i.turn, v3_scale(p->i.size, i->ball[a].centre));
-            const double r = p->i.size * i->ball[a].radius;
-            const vec3 d = v3_sub(c, p->j.centre);
-            if (v3_dot(d, d) < (bound + r) * (bound + r))
-                count = touch(p, j, a, c, r, &s, from, n, most, count, out);
+    for (int start = 0; start < i->padded; start += WIDE) {
+        const int n_i = i->padded - start < WIDE ? i->padded - start : WIDE;
+        unsigned char of_i[WIDE + 1], of_j[WIDE + 1], with[WIDE + 1];
+        struct seen_spheres s, t;
+        place(i, &p->i, start, n_i, &s);
+        const int near_i = within(&s, n_i, p->j.centre, bound_j + p->reach, of_i);
+        for (int from = 0; from < j->padded && near_i > 0; from += WIDE) {
+            const int n_j = j->padded - from < WIDE ? j->padded - from : WIDE;
+            place(j, &p->j, from, n_j, &t);
+            if (within(&t, n_j, origin, bound_i + p->reach, of_j) == 0)
+                continue;
+            for (int a = 0; a < near_i; a++) {
+                const int m = of_i[a];
+                const vec3 c = v3(s.x[m], s.y[m], s.z[m]);
+                const int touching = within(&t, n_j, c, s.r[m] + p->reach, with);
+                for (int k = 0; k < touching; k++, count++) {
+                    const int q = with[k];
+                    const vec3 at = v3(t.x[q], t.y[q], t.z[q]);
+                    if (count < most)
+                        out[count] =
+                            shape_balls_meet(c, s.r[m], v3_sub(at, p->j.centre), t.r[q],
+                                             v3_sub(c, at), (start + m) * j->n + from + q);
+                }
+            }
         }
     }
     return count;

@@ -12,7 +12,8 @@
 
 struct cut points_cut(const struct sim *s)
 {
-    struct cut c = {.rows = laws_rows(), .first = (shape.memory + 3) / 4 * 4, .most = 1};
+    struct cut c = {.rows = laws_rows(), .head = (shape.memory + 3) / 4 * 4, .most = 1};
+    c.first = c.head + SLOT_HEAD;
     for (int k = 0; k < s->grains.n_species; k++) {
         const int most = s->grains.species[k].form.points_most;
         c.most = most > c.most ? most : c.most;
@@ -264,10 +265,12 @@ void points_work(struct sim *s, struct block *b, const struct target *to)
 static void match(const struct cut *cut, real *memory, const struct shape_point *p,
                   const vec3 *place, int n, double close, int *record)
 {
-    bool taken[POINTS_MOST] = {false};
+    const int used = points_used(cut, memory);
+    bool taken[POINTS_MOST];
+    memset(taken, 0, (size_t)used);
     for (int k = 0; k < n; k++) {
         record[k] = -1;
-        for (int r = 0; r < cut->most && record[k] < 0; r++)
+        for (int r = 0; r < used && record[k] < 0; r++)
             if (record_id(points_record(cut, memory, r)) == p[k].id)
                 record[k] = r;
         if (record[k] >= 0)
@@ -277,7 +280,7 @@ static void match(const struct cut *cut, real *memory, const struct shape_point 
         double nearest = close * close;
         if (record[k] >= 0)
             continue;
-        for (int r = 0; r < cut->most; r++) {
+        for (int r = 0; r < used; r++) {
             const real *const at = points_record(cut, memory, r);
             const vec3 d = v3_sub(place[k], v3((double)at[1], (double)at[2], (double)at[3]));
             if (taken[r] || at[0] == (real)0.0 || v3_dot(d, d) >= nearest)
@@ -288,7 +291,7 @@ static void match(const struct cut *cut, real *memory, const struct shape_point 
         if (record[k] >= 0)
             taken[record[k]] = true;
     }
-    for (int r = 0; r < cut->most; r++) { /* contacts that ended */
+    for (int r = 0; r < used; r++) { /* contacts that ended */
         real *const at = points_record(cut, memory, r);
         if (!taken[r] && at[0] != (real)0.0)
             memset(at, 0, (size_t)(RECORD_HEAD + cut->rows) * sizeof *at);
@@ -312,7 +315,7 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
     real *const memory = &l->memory[(size_t)slot * s->neighbours.rows];
     vec3 place[POINTS_MOST];
     int record[POINTS_MOST];
-    int next = 0;
+    int next = 0, used = 0;
     bool overlaps = false;
     for (int k = 0; k < n; k++)
         place[k] = mat3_back(&pair->i.turn, p[k].at_i);
@@ -321,6 +324,7 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
         const bool new = record[k]<0, over = p[k].depth> 0.0;
         if (new)
             record[k] = next = free_record(cut, memory, next);
+        used = record[k] >= used ? record[k] + 1 : used;
         real *const at = points_record(cut, memory, record[k]);
         const struct point_of o = {.slot = slot,
                                    .i = l->owner[slot],
@@ -337,6 +341,7 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
         if (b->n == TOUCH)
             points_work(s, b, to);
     }
+    points_use(cut, memory, used);
     l->live[slot] = overlaps ? LIVE_OVERLAP : n > 0 || shape.memory > 0 ? LIVE_REACH : 0;
 }
 

@@ -1,9 +1,9 @@
 /* contact_points.h - any number of contacts in a slot: what pairs and walls have in common.
  *
- * The memory of a slot: shape.memory reals of the shape, then a number of records, one for each
- * contact that there may be: RECORD_HEAD reals - a code, zero for a free record, else made of the id
- * of the contact and of whether it overlapped; its place in the frame of the slot's owner - and the
- * rows of the laws. */
+ * The memory of a slot: shape.memory reals of the shape; SLOT_HEAD reals, of which the first tells how
+ * many records, from the first on, may be in use; and the records, one for each contact that there may
+ * be: RECORD_HEAD reals - a code, zero for a free record, else made of the id of the contact and of
+ * whether it overlapped; its place in the frame of the slot's owner - and the rows of the laws. */
 #ifndef CONTACT_POINTS_H
 #define CONTACT_POINTS_H
 
@@ -13,11 +13,12 @@
 #include "contact_view.h"
 #include "sim.h"
 
-enum { RECORD_HEAD = 4, POINTS_MOST = 256 };
+enum { SLOT_HEAD = 4, RECORD_HEAD = 4, POINTS_MOST = 256 };
 
 /* How the memory of slots is cut. */
 struct cut {
-    int first; /* record, in reals from the start of the slot's memory */
+    int head;  /* in reals from the start of the slot's memory */
+    int first; /* record, likewise */
     int rows;  /* of the laws */
     int most;  /* records */
 };
@@ -27,6 +28,17 @@ struct cut points_cut(const struct sim *s);
 static inline real *points_record(const struct cut *c, real *memory, int k)
 {
     return memory + c->first + k * (RECORD_HEAD + c->rows);
+}
+
+/* Records that may be in use. */
+static inline int points_used(const struct cut *c, const real *memory)
+{
+    return (int)memory[c->head];
+}
+
+static inline void points_use(const struct cut *c, real *memory, int records)
+{
+    memory[c->head] = (real)records;
 }
 
 static inline int record_id(const real *record)

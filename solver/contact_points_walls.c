@@ -27,6 +27,11 @@ struct meeting {
 struct meetings {
     int n, room;
     struct meeting *m;
+    int facings; /* room of the buffers */
+    struct facing *seen;
+    double *radius;
+    size_t taken_room;
+    real *taken;
 };
 
 /* The active wall slots of a grain. */
@@ -116,7 +121,7 @@ static void meet_convex(const struct sim *s, struct meetings *all, const struct 
                         const struct facing *seen, struct facing *f)
 {
     const double inset = INSET * a->pose.size;
-    double *const radius = xalloc((size_t)a->n + 1, sizeof *radius);
+    double *const radius = all->radius;
     for (int k = 0; k < a->n; k++)
         deepest(s, a, &seen[k], inset, &radius[k], &f[k]);
     const int before = all->n;
@@ -133,7 +138,6 @@ static void meet_convex(const struct sim *s, struct meetings *all, const struct 
     }
     for (int k = before; k < all->n; k++)
         all->m[k].p.id = 0;
-    xfree(radius);
 }
 
 static void meet_facets(const struct sim *s, struct meetings *all, const struct around *a,
@@ -178,7 +182,7 @@ static void find_own(const struct sim *s, const struct cut *cut, struct meetings
     for (int k = 0; k < all->n; k++) {
         struct meeting *const m = &all->m[k];
         real *const memory = &l->memory[(size_t)m->f.slot * s->neighbours.rows];
-        for (int r = 0; r < cut->most && !m->record; r++) {
+        for (int r = 0; r < points_used(cut, memory) && !m->record; r++) {
             real *const at = points_record(cut, memory, r);
             if (record_id(at) == m->p.id && !goes_on(all, at))
                 m->record = at;
@@ -198,7 +202,7 @@ static real *left_near(const struct sim *s, const struct cut *cut, const struct 
         if (s->walls.wall_of[l->other[a->slot[k]]] != m->f.wall || !l->live[a->slot[k]])
             continue;
         real *const memory = &l->memory[(size_t)a->slot[k] * s->neighbours.rows];
-        for (int r = 0; r < cut->most; r++) {
+        for (int r = 0; r < points_used(cut, memory); r++) {
             real *const at = points_record(cut, memory, r);
             const vec3 d = v3_sub(m->place, v3((double)at[1], (double)at[2], (double)at[3]));
             if (at[0] == (real)0.0 || v3_dot(d, d) >= nearest || goes_on(all, at))
@@ -216,10 +220,16 @@ static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
 {
     const struct slots *const l = &s->neighbours.walls;
     const size_t size = (size_t)(RECORD_HEAD + cut->rows);
-    real *const taken = xalloc((size_t)all->n * size + 1, sizeof *taken);
+    if ((size_t)all->n * size > all->taken_room) {
+        all->taken_room = 2 * (size_t)all->n * size;
+        xfree(all->taken);
+        all->taken = xalloc(all->taken_room, sizeof *all->taken);
+    }
+    real *const taken = all->taken;
     find_own(s, cut, all);
     for (int k = 0; k < all->n; k++) {
         real *const from = all->m[k].new ? left_near(s, cut, all, a, &all->m[k]) : NULL;
+        taken[(size_t)k * size] = (real)0.0;
         if (!from)
             continue;
         memcpy(&taken[(size_t)k * size], from, size * sizeof *from);
@@ -227,7 +237,7 @@ static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
     }
     for (int k = 0; k < a->n; k++) {
         real *const memory = &l->memory[(size_t)a->slot[k] * s->neighbours.rows];
-        for (int r = 0; r < cut->most && l->live[a->slot[k]]; r++) {
+        for (int r = 0; r < points_used(cut, memory) && l->live[a->slot[k]]; r++) {
             real *const at = points_record(cut, memory, r);
             if (at[0] != (real)0.0 && !goes_on(all, at))
                 memset(at, 0, size * sizeof *at);
@@ -246,11 +256,13 @@ static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
             continue;
         }
         m->record = points_record(cut, memory, r);
-        memcpy(m->record, &taken[(size_t)k * size], size * sizeof *taken);
-        if (m->record[0] == (real)0.0)
+        points_use(cut, memory,
+                   r >= points_used(cut, memory) ? r + 1 : points_used(cut, memory));
+        if (taken[(size_t)k * size] != (real)0.0)
+            memcpy(m->record, &taken[(size_t)k * size], size * sizeof *taken);
+        else
             m->record[0] = (real)2.0; /* in use, did not overlap */
     }
-    xfree(taken);
 }
 
 static void enter(struct sim *s, struct block *b, int i, struct meeting *m)
@@ -305,7 +317,14 @@ static void work_grain(struct sim *s, struct block *b, const struct cut *cut, st
                        struct meetings *all, const struct target *to)
 {
     struct slots *const l = &s->neighbours.walls;
-    struct facing *const seen = xalloc(2 * (size_t)a->n + 1, sizeof *seen);
+    if (a->n > all->facings) {
+        all->facings = 2 * a->n;
+        xfree(all->seen);
+        xfree(all->radius);
+        all->seen = xalloc(2 * (size_t)all->facings, sizeof *all->seen);
+        all->radius = xalloc((size_t)all->facings, sizeof *all->radius);
+    }
+    struct facing *const seen = all->seen;
     int near = 0, live = 0;
     const vec3 x = s->grains.pos[a->i];
     const double reach = s->grains.radius[a->i] + s->neighbours.reach;
@@ -328,7 +347,6 @@ static void work_grain(struct sim *s, struct block *b, const struct cut *cut, st
         if (shape.facet)
             meet_facets(s, all, &close, seen, cut->most);
     }
-    xfree(seen);
     if (all->n == 0 && live == 0)
         return;
     remember(s, cut, all, a, to->report);
@@ -362,5 +380,7 @@ void points_walls(struct sim *s, int run, struct block *b, const struct target *
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;
-    xfree(all.m);
+    void *const buffers[] = {all.m, all.seen, all.radius, all.taken};
+    for (size_t k = 0; k < sizeof buffers / sizeof buffers[0]; k++)
+        xfree(buffers[k]);
 }
