@@ -224,7 +224,7 @@ run_study() {
 # Below [short]: what stands in place of, or beside, these in the short form of the first command.
 # Each command's output goes to DIR/NUMBER.
 study() {
-    local file=$1 short=$2 out=$3 line key part=full n=0 i commands=() arguments=() worst=0 status
+    local file=$1 short=$2 out=$3 line key part=full n=0 i arguments=() worst=0 status
     run_command() {
         [ ${#arguments[@]} -eq 0 ] && return
         n=$((n + 1))

@@ -51,8 +51,8 @@ fill_of() {
     if ! has fluid && [ "$(word "$scene" modules reference)" != rebound ]; then # which has none
         echo modules.fluid=prescribed
         echo "fluid.density=1e-9 kg/m3"
-        echo "fluid.viscosity=0 Pa s"
-        echo "fluid.velocity=0 0 0 m/s"
+        echo "fluid.viscosity=1e-30 Pa s"
+        echo "fluid.velocity=0 0 1e-30 m/s"
         echo "domain.cells=8 8 8"
         echo "fluid.dt=0.1 ms"
     fi
