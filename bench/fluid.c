@@ -1,6 +1,6 @@
 /* bench/fluid.c - a Navier-Stokes step, whole and verb by verb, in ns per cell, beside the
  * memory's triad of the same minute. OMP_NUM_THREADS threads; arguments: cells per direction
- * (128), rounds (9). Times are medians over the rounds: of the processor on one thread (what
+ * (128), rounds (9), any word to leave out the boxes without grains. Times are medians over the rounds: of the processor on one thread (what
  * else runs on the machine counts less), of the clock on more. Bytes per cell are those that
  * the run has taken from the heap. */
 /* slots: solver/fluid/navier_stokes drag/ergun porosity/divided */
@@ -8,14 +8,17 @@
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include "../solver/fluid_state.h"
+#include "../solver/pressure.h"
 #include "../solver/projection.h"
 #include "../verify/harness.h"
 
 enum { MOST = 99 };
 
 static int n = 128, rounds = 9;
+static double bandwidth; /* GB/s, of the triad */
 
 static double now(void)
 {
@@ -98,6 +101,16 @@ static void report(const char *name, double *time, double cells, double bytes)
     printf("\n");
 }
 
+/* A verb that reads and writes so many numbers a cell: its time over that of the triad for as many. */
+static void report_verb(const char *name, double *time, int numbers)
+{
+    const double ns = 1e9 * median(time) / ((double)n * n * n);
+    printf("  %-48s %7.1f ns/cell", name, ns);
+    if (numbers > 0)
+        printf(", %2d numbers: %4.1f x memory", numbers, ns * bandwidth / (8.0 * numbers));
+    printf("\n");
+}
+
 /* Whole steps of a box without grains. */
 static void plain(const char *name, int nz, const char *sides, const char *keys)
 {
@@ -163,8 +176,9 @@ static void verbs(const char *convection, enum convection scheme)
                                         "ghosts of the pressure",
                                         "correction",
                                         "guards: continuity, Courant number"};
+    static const int numbers[7] = {0, 13, 4, 6, 0, 9, 3};
     for (int v = 0; v < 7; v++)
-        report(name[v], time[v], (double)n * n * n, 0.0);
+        report_verb(name[v], time[v], numbers[v]);
     momentum_free(&m);
     poisson_free(p);
     for (int a = 0; a < 3; a++) {
@@ -177,15 +191,14 @@ static void verbs(const char *convection, enum convection scheme)
     sim_free(s);
 }
 
-/* Porosity from 0.35 to 1 and a drag that goes with it, in place of what grains would give. */
-static void porous(const char *name, const char *keys)
+/* A box with porosity from 0.35 to 1 and a drag that goes with it, in place of what grains would give. */
+static struct sim *porous_box(const char *keys, double *bytes)
 {
-    double bytes, time[MOST];
     struct sim *const s =
         box(n, "x = periodic\ny = periodic\nz+ = outflow\n", keys,
             "[grains g]\ndiameter = 0.001 m\ndensity = 2 kg/m3\nfill = point\n"
             "position = 0.5 0.5 0.5 m\nfrozen = yes\n",
-            &bytes);
+            bytes);
     const struct grid *const g = &s->grid;
     struct fluid *const f = &s->fluid;
     for (int k = 0; k <= n + 1; k++)
@@ -205,8 +218,14 @@ static void porous(const char *name, const char *keys)
     vortex(s);
     fluid_step(s);
     fluid_step(s);
-    bytes = (heap() - bytes) / ((double)n * n * n);
-    double iterations = 0.0;
+    *bytes = (heap() - *bytes) / ((double)n * n * n);
+    return s;
+}
+
+static void porous(const char *name, const char *keys)
+{
+    double bytes, time[MOST], iterations = 0.0;
+    struct sim *const s = porous_box(keys, &bytes);
     for (int r = 0; r < rounds; r++) {
         const double start = now();
         fluid_step(s);
@@ -219,14 +238,71 @@ static void porous(const char *name, const char *keys)
     sim_free(s);
 }
 
-int main(int argc, char **argv)
+/* The verbs of such a step, form a, van Leer, one after the other; the solve starts at 0 each time. */
+static void porous_verbs(void)
 {
-    n = argc > 1 ? atoi(argv[1]) : n;
-    rounds = argc > 2 ? atoi(argv[2]) : rounds;
-    if (n < 4 || rounds < 1 || rounds > MOST)
-        die(EXIT_SCENE, "usage: fluid [CELLS] [ROUNDS]");
-    printf("threads %d: triad %.1f GB/s; a Navier-Stokes step at %d^3, pressure included\n",
-           omp_get_max_threads(), triad(), n);
+    enum { VERBS = 8 };
+    double bytes, time[VERBS][MOST], *old[3], *w[3], iterations = 0.0;
+    struct sim *const s = porous_box("", &bytes);
+    struct momentum m = {0};
+    enum poisson_side side[6];
+    double *const dp = grid_field(&s->grid), *const rhs = grid_field(&s->grid);
+    for (int a = 0; a < 3; a++) {
+        old[a] = grid_field(&s->grid);
+        w[a] = grid_field(&s->grid);
+    }
+    fluid_pressure_sides(&s->domain, side);
+    struct pressure *const p = pressure_create(&s->grid, &s->domain, side);
+    momentum_create(&m, s, CONVECTION_VAN_LEER, FORM_A, false);
+    for (int r = 0; r < rounds; r++) {
+        double at[VERBS + 1];
+        memset(dp, 0, s->grid.total * sizeof *dp);
+        at[0] = now();
+        momentum_dilatation(s, rhs);
+        momentum_porous(s, &m, rhs, w, s->fluid.stress);
+        at[1] = now();
+        for (int a = 0; a < 3; a++)
+            projection_predict(s, a, 1.5, -0.5, w[a], old[a], s->fluid.u[a]);
+        at[2] = now();
+        for (int a = 0; a < 3; a++)
+            projection_coefficient(s, a, w[a]);
+        at[3] = now();
+        fluid_divergences(s, 1.0, rhs);
+        at[4] = now();
+        iterations += (double)pressure_solve(p, w, 0.0, rhs, dp, 1e-6, 0.0).iterations / rounds;
+        at[5] = now();
+        projection_correct(s, w, dp);
+        at[6] = now();
+        projection_stress(s, dp);
+        at[7] = now();
+        fluid_guard(s, false);
+        at[8] = now();
+        for (int v = 0; v < VERBS; v++)
+            time[v][r] = at[v + 1] - at[v];
+    }
+    static const char *const name[VERBS] = {
+        "dilatation, explicit terms",     "prediction",
+        "coefficients of the pressure",   "divergence",
+        "pressure to 1e-6, from 0",       "correction",
+        "stress on the grains, pressure", "guards: continuity, Courant number"};
+    static const int numbers[VERBS] = {18, 26, 8, 9, 0, 11, 12, 8};
+    for (int v = 0; v < VERBS; v++)
+        report_verb(name[v], time[v], numbers[v]);
+    printf("  (%.1f iterations, %.1f ns each)\n", iterations,
+           1e9 * median(time[4]) / ((double)n * n * n * iterations));
+    momentum_free(&m);
+    pressure_free(p);
+    for (int a = 0; a < 3; a++) {
+        xfree(old[a]);
+        xfree(w[a]);
+    }
+    xfree(dp);
+    xfree(rhs);
+    sim_free(s);
+}
+
+static void without_grains(void)
+{
     static const char *const periodic = "x = periodic\ny = periodic\nz = periodic\n";
     plain("periodic, centred", n, periodic, "convection = centred\n");
     plain("periodic, van Leer", n, periodic, "");
@@ -239,10 +315,25 @@ int main(int argc, char **argv)
     verbs("centred", CONVECTION_CENTRED);
     printf(" verb by verb, walls, van Leer\n");
     verbs("van_leer", CONVECTION_VAN_LEER);
+}
+
+int main(int argc, char **argv)
+{
+    n = argc > 1 ? atoi(argv[1]) : n;
+    rounds = argc > 2 ? atoi(argv[2]) : rounds;
+    if (n < 4 || rounds < 1 || rounds > MOST)
+        die(EXIT_SCENE, "usage: fluid [CELLS] [ROUNDS] [porous]");
+    bandwidth = triad();
+    printf("threads %d: triad %.1f GB/s; a Navier-Stokes step at %d^3, pressure included\n",
+           omp_get_max_threads(), bandwidth, n);
+    if (argc < 4)
+        without_grains();
     printf(" porosity from 0.35 to 1, without sensing grains\n");
     porous("form a, centred, tolerance 1e-6", "convection = centred\ntolerance = 1e-6\n");
     porous("form a, centred, tolerance 0.1", "convection = centred\ntolerance = 0.1\n");
     porous("form a, van Leer, tolerance 1e-6", "tolerance = 1e-6\n");
     porous("form b, van Leer, tolerance 1e-6", "form = b\ntolerance = 1e-6\n");
+    printf(" verb by verb, form a, van Leer\n");
+    porous_verbs();
     return 0;
 }
