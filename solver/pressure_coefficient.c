@@ -1,0 +1,156 @@
+/* pressure_coefficient.c - the coefficients of the variable-coefficient solve: their statistics, which choose
+ * the preconditioner, and their scaled copy, see pressure_parts.h. */
+#include "pressure_parts.h"
+
+/* True if face i (1..n+1) of direction a passes nothing. */
+static bool closed(const struct pressure *p, int a, int i)
+{
+    return (i == 1 && p->side[2 * a] == POISSON_NEUMANN) ||
+           (i == p->g->n[a] + 1 && p->side[2 * a + 1] == POISSON_NEUMANN);
+}
+
+/* Sums over layer k, each face once: of c in x and y and of the face below in z, of squares;
+ * extremes. */
+static void layer_statistics(struct pressure *p, double *const c[3], int k)
+{
+    const struct grid *const g = p->g;
+    const double count = (double)g->n[0] * g->n[1];
+    double flat = 0.0, up = 0.0, square = 0.0, least = (double)INFINITY, most = 0.0;
+    long faces = 0;
+    for (int a = 0; a < (k <= g->n[2] ? 3 : 1); a++) {
+        const int axis = k <= g->n[2] ? a : 2;
+        if (axis == 2 &&
+            (closed(p, 2, k) || (k > g->n[2] && p->side[Z_HI] == POISSON_PERIODIC)))
+            continue;
+        for (int j = 1; j <= g->n[1] + (axis == 1); j++) {
+            if (axis == 1 && closed(p, 1, j))
+                continue;
+            const int lo = axis == 0 && closed(p, 0, 1) ? 2 : 1;
+            const int hi = g->n[0] + (axis == 0 && !closed(p, 0, g->n[0] + 1));
+            const double *const x = c[axis] + cell(g, 0, j, k);
+            for (int i = lo; i <= hi; i++) {
+                least = x[i] > 0.0 && x[i] < least ? x[i] : least;
+                most = x[i] > most ? x[i] : most;
+            }
+            const double sum = pressure_row_sum(x + lo, 1, hi - lo + 1, false);
+            *(axis == 2 ? &up : &flat) += sum;
+            if (axis != 2) {
+                square += pressure_row_sum(x + lo, 1, hi - lo + 1, true);
+                faces += hi - lo + 1;
+            }
+        }
+    }
+    p->least[k] = least;
+    p->most[k] = most;
+    if (k <= g->n[2]) {
+        p->flat[k] = faces > 0 ? flat / (double)faces : 0.0;
+        p->square[k] = faces > 0 ? square / (double)faces : 0.0;
+    }
+    p->up[k] = up / count;
+}
+
+struct statistics pressure_statistics(struct pressure *p, double *const c[3])
+{
+    const int n = p->g->n[2];
+    struct statistics s = {.least = (double)INFINITY};
+#pragma omp parallel for schedule(static) if (worth_threads(p))
+    for (int k = 1; k <= n + 1; k++)
+        layer_statistics(p, c, k);
+    if (p->side[Z_HI] == POISSON_PERIODIC)
+        p->up[n + 1] = p->up[1];
+    double mean = 0.0, square = 0.0;
+    for (int k = 1; k <= n + 1; k++) {
+        s.least = fmin(s.least, p->least[k]);
+        s.most = fmax(s.most, p->most[k]);
+        if (k > n)
+            continue;
+        mean += p->flat[k] / n;
+        square += p->square[k] / n;
+        s.within += (p->square[k] - p->flat[k] * p->flat[k]) / n;
+    }
+    s.variance = square - mean * mean;
+    s.scale = s.most > 0.0 ? 1.0 / s.most : 1.0;
+    return s;
+}
+
+/* c is the same all over each layer, to round-off. */
+bool pressure_layered(const struct pressure *p, const struct statistics *s, double *const c[3])
+{
+    const struct grid *const g = p->g;
+    const double within = 1e-13;
+    bool same = s->within <= 1e-12 * (s->variance + s->most * s->most);
+    for (int k = 1; same && k <= g->n[2]; k++)
+        same = p->most[k] - p->least[k] <= within * p->most[k] || p->least[k] < p->most[k];
+    if (!same)
+        return false;
+#pragma omp parallel for schedule(static) reduction(&& : same) if (worth_threads(p))
+    for (int k = 1; k <= g->n[2] + 1; k++)
+        for (int a = 0; a < 3; a++) {
+            const bool inside = a == 2 ? !closed(p, 2, k) : k <= g->n[2] && g->n[a] > 1;
+            const double mean = a == 2 ? p->up[k] : p->flat[k];
+            for (int j = 1; j <= g->n[1] && inside && same; j++)
+                for (int i = 1; i <= g->n[0]; i++)
+                    if (!closed(p, a, a == 0 ? i : a == 1 ? j : k))
+                        same = same && fabs(c[a][cell(g, i, j, k)] - mean) <= within * mean;
+        }
+    return same;
+}
+
+void pressure_box_means(struct pressure *p)
+{
+    const int n = p->g->n[2];
+    double flat = 0.0, up = 0.0;
+    int faces = 0;
+    for (int k = 1; k <= n + 1; k++) {
+        flat += k <= n ? p->flat[k] / n : 0.0;
+        if (!closed(p, 2, k) && !(k > n && p->side[Z_HI] == POISSON_PERIODIC)) {
+            up += p->up[k];
+            faces++;
+        }
+    }
+    for (int k = 1; k <= n + 1; k++) {
+        p->flat[k] = flat > 0.0 ? flat : up / faces;
+        p->up[k] = faces > 0 ? up / faces : flat;
+    }
+}
+
+/* The coefficients over h^2, times `scale`; sides as krylov.h wants them. */
+void pressure_set_coefficients(struct pressure *p, struct krylov *w, double *const c[3],
+                               double scale)
+{
+    const struct grid *const g = p->g;
+    const struct box *const b = &p->box;
+    for (int a = 0; a < 3; a++) {
+        const int axis = b->axis[a],
+                  last[3] = {b->n[0] + (a == 0), b->n[1] + (a == 1), b->n[2] + (a == 2)};
+        const double factor = scale / (g->h[axis] * g->h[axis]);
+        const double side[2] = {p->side[2 * axis] == POISSON_NEUMANN     ? 0.0
+                                : p->side[2 * axis] == POISSON_DIRICHLET ? 2.0
+                                                                         : 1.0,
+                                p->side[2 * axis + 1] == POISSON_NEUMANN     ? 0.0
+                                : p->side[2 * axis + 1] == POISSON_DIRICHLET ? 2.0
+                                                                             : 1.0};
+#pragma omp parallel for schedule(static) if (worth_threads(p))
+        for (int row = 0; row < last[1] * last[2]; row++) {
+            const int j = row % last[1], k = row / last[1];
+            const double *const from =
+                c[axis] + b->grid_start + j * b->grid_s[1] + k * b->grid_s[2];
+            const size_t to = (size_t)b->start + (size_t)j * b->s[1] + (size_t)k * b->s[2];
+            const int at_row = a == 1 ? j : k;
+            double f = factor;
+            if (a > 0)
+                f *= at_row == 0 ? side[0] : at_row == b->n[a] ? side[1] : 1.0;
+            double x[SEGMENT];
+            for (int i0 = 0; i0 < last[0]; i0 += SEGMENT) {
+                const int n = last[0] - i0 < SEGMENT ? last[0] - i0 : SEGMENT;
+                for (int i = 0; i < n; i++)
+                    x[i] = f * from[(size_t)(i0 + i) * b->grid_s[0]];
+                if (a == 0 && i0 == 0)
+                    x[0] *= side[0];
+                if (a == 0 && i0 + n == last[0])
+                    x[n - 1] *= side[1];
+                put(w, w->c[a], to + i0, x, n);
+            }
+        }
+    }
+}
