@@ -148,7 +148,7 @@ struct shape {
      * list. NULL: nothing to read. */
     void (*init)(struct scene *scene, const struct grains *g, struct shape_form *form);
     void (*free)(void);
-    double (*volume)(double diameter); /* m3; NULL: of the sphere */
+    double (*volume)(int species, double diameter); /* m3; NULL: of the sphere */
 
     /* contact_spheres: sets depth, normal and levers of each candidate. r_i, r_j and r_eff are
      * there already, from the bounding radii (r_j = 0 for a wall); a shape whose surface curves

@@ -248,8 +248,8 @@ void grains_body(struct grains *g, int i, double diameter)
     const struct species *const sp = &g->species[g->kind[i]];
     const double size = 0.5 * diameter;
     g->radius[i] = size * sp->form.bounding;
-    g->volume[i] =
-        shape.volume ? shape.volume(diameter) : PI / 6.0 * diameter * diameter * diameter;
+    g->volume[i] = shape.volume ? shape.volume(g->kind[i], diameter)
+                                : PI / 6.0 * diameter * diameter * diameter;
     g->mass[i] = sp->density * g->volume[i];
     const double scale = g->mass[i] * size * size;
     const vec3 inertia = sp->form.inertia;
