@@ -46,6 +46,8 @@ ifeq ($(REAL),float)
 build/$(MODE)-float/obj/contact/%.o build/$(MODE)-float/obj/shapes/%.o \
 $(addprefix build/$(MODE)-float/obj/solver/,contact_block.o contact_laws.o contact_loop.o): \
     FLAGS_float += -fsingle-precision-constant
+build/$(MODE)-float/obj/shapes/geometry/%.o: \
+    FLAGS_float := -DSILT_FLOAT -Wno-double-promotion -Wno-conversion -Wno-float-conversion
 endif
 comma := ,
 empty :=

@@ -87,7 +87,7 @@ static void add_vertices(struct corners *c, const struct patch_body *a, const st
             continue;
         height *= b->scale;
         if (swapped)
-            add_corner(c, POLYHEDRON_MOST + rim->vertex[k], height, x);
+            add_corner(c, b->p->n_vertices + rim->vertex[k], height, x);
         else
             add_corner(c, rim->vertex[k], height, v3_axpy(x, -height, up));
     }
@@ -96,6 +96,7 @@ static void add_vertices(struct corners *c, const struct patch_body *a, const st
 static void add_crossings(struct corners *c, const struct patch_body *a, const struct rim *ra,
                           const struct patch_body *b, const struct rim *rb, vec3 up)
 {
+    const int first = a->p->n_vertices + b->p->n_vertices;
     for (int i = 0; i < ra->n_edges; i++) {
         const int *const e = a->p->edge[ra->edge[i]];
         const vec3 p = points_at(&a->at, e[0]), d = v3_sub(points_at(&a->at, e[1]), p);
@@ -113,8 +114,7 @@ static void add_crossings(struct corners *c, const struct patch_body *a, const s
                 continue;
             const vec3 on_b = v3_axpy(q, t, g);
             const double gap = v3_dot(up, v3_sub(v3_axpy(p, s, d), on_b));
-            add_corner(c, 2 * POLYHEDRON_MOST + ra->edge[i] * b->p->n_edges + rb->edge[j], gap,
-                       on_b);
+            add_corner(c, first + ra->edge[i] * b->p->n_edges + rb->edge[j], gap, on_b);
         }
     }
 }
@@ -244,6 +244,11 @@ static int hand_out(const struct corners *c, int most, struct patch_point *out)
     return n;
 }
 
+int patch_ids(const struct polyhedron *a, const struct polyhedron *b)
+{
+    return a->n_vertices + b->n_vertices + a->n_edges * b->n_edges + 1;
+}
+
 /* The nearest points alone. */
 static int one_point(int id, const struct gap *gap, vec3 on_b, struct patch_point *out)
 {
@@ -259,13 +264,15 @@ int patch_find(const struct patch_body *a, const struct patch_body *b, const str
     const vec3 n = gap->normal;
     struct rim ra, rb;
     struct corners c;
+    if (!(size > 0.0)) /* one of them is a ball */
+        return one_point(patch_ids(a->p, b->p) - 1, gap, gap->on_b, out);
     find_rim(a, v3_scale(-1.0, n), window, false, &ra);
     if (ra.n == 1)
         return one_point(ra.vertex[0], gap,
                          v3_axpy(points_at(&a->at, ra.vertex[0]), -gap->distance, n), out);
     find_rim(b, n, window, true, &rb);
     if (rb.n == 1)
-        return one_point(POLYHEDRON_MOST + rb.vertex[0], gap, points_at(&b->at, rb.vertex[0]),
+        return one_point(a->p->n_vertices + rb.vertex[0], gap, points_at(&b->at, rb.vertex[0]),
                          out);
     find_rim(a, v3_scale(-1.0, n), window, true, &ra);
     c.n = 0;
@@ -273,7 +280,7 @@ int patch_find(const struct patch_body *a, const struct patch_body *b, const str
     add_vertices(&c, b, &rb, a, v3_scale(-1.0, n), true);
     add_crossings(&c, a, &ra, b, &rb, n);
     if (c.n == 0)
-        return one_point(2 * POLYHEDRON_MOST, gap, gap->on_b, out);
+        return one_point(patch_ids(a->p, b->p) - 1, gap, gap->on_b, out);
     share_out(&c, n, tilt, size);
     return hand_out(&c, most, out);
 }

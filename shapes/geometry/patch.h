@@ -37,6 +37,8 @@ struct patch_point {
     vec3 on_b;    /* m, place on the core of b; that on a is on_b + gap normal */
 };
 
+/* Ids of points of the two are below this. */
+int patch_ids(const struct polyhedron *a, const struct polyhedron *b);
 /* Number of points, between 1 and `most`; the ones of the least shares are left out if there are
  * more. The gap is that of the bodies (distance.h). */
 int patch_find(const struct patch_body *a, const struct patch_body *b, const struct gap *gap,

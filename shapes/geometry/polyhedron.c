@@ -63,13 +63,18 @@ static void set_plane(struct polyhedron *p, int f)
     p->off[f] = v3_dot(normal, middle);
 }
 
+static void pad_faces(struct polyhedron *p)
+{
+    double *const all[] = {p->nx, p->ny, p->nz, p->off};
+    for (int k = 0; k < 4; k++)
+        pad(all[k], p->n_faces, p->face_room);
+}
+
 static void finish_faces(struct polyhedron *p)
 {
     for (int f = 0; f < p->n_faces; f++)
         set_plane(p, f);
-    double *const all[] = {p->nx, p->ny, p->nz, p->off};
-    for (int k = 0; k < 4; k++)
-        pad(all[k], p->n_faces, p->face_room);
+    pad_faces(p);
 }
 
 static void finish_vertices(struct polyhedron *p)
@@ -264,14 +269,21 @@ struct polyhedron *polyhedron_hull(const vec3 *point, int n, char **why)
     return p;
 }
 
-void polyhedron_move(struct polyhedron *p, vec3 origin, const vec3 axes[3])
+void polyhedron_move(struct polyhedron *p, vec3 origin, const vec3 axes[3], double scale)
 {
     for (int v = 0; v < p->n_vertices; v++) {
         const vec3 x = v3_sub(polyhedron_vertex(p, v), origin);
-        p->x[v] = v3_dot(axes[0], x);
-        p->y[v] = v3_dot(axes[1], x);
-        p->z[v] = v3_dot(axes[2], x);
+        p->x[v] = scale * v3_dot(axes[0], x);
+        p->y[v] = scale * v3_dot(axes[1], x);
+        p->z[v] = scale * v3_dot(axes[2], x);
+    }
+    for (int f = 0; f < p->n_faces; f++) {
+        const vec3 n = polyhedron_normal(p, f);
+        p->off[f] = scale * (p->off[f] - v3_dot(n, origin));
+        p->nx[f] = v3_dot(axes[0], n);
+        p->ny[f] = v3_dot(axes[1], n);
+        p->nz[f] = v3_dot(axes[2], n);
     }
     finish_vertices(p);
-    finish_faces(p);
+    pad_faces(p);
 }

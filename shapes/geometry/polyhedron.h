@@ -29,8 +29,9 @@ struct polyhedron {
  * (free with xfree), where the points lie in a plane or are not finite. */
 struct polyhedron *polyhedron_hull(const vec3 *point, int n, char **why);
 void polyhedron_free(struct polyhedron *p);
-/* Moves it by -origin, then turns it so that the rows of `axes` become x, y, z. */
-void polyhedron_move(struct polyhedron *p, vec3 origin, const vec3 axes[3]);
+/* Moves it by -origin, turns it so that the rows of `axes` become x, y, z, and scales it (by 0: all
+ * vertices at the origin, the faces keep their normals). */
+void polyhedron_move(struct polyhedron *p, vec3 origin, const vec3 axes[3], double scale);
 
 static inline vec3 polyhedron_vertex(const struct polyhedron *p, int v)
 {

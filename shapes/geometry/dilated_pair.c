@@ -1,0 +1,238 @@
+/* shapes/geometry/dilated_pair.c - where two bodies of dilated polyhedra touch.
+ *
+ * All is done in the body frame of i, with its size as the unit: the vertices of i then stand where
+ * they are stored, and those of j are turned once a pair. For pairs of parts that are far apart
+ * the direction kept from the last step tells so: one look for the lowest and highest vertex
+ * along it. */
+#include "dilated.h"
+#include "envelope.h"
+
+/* j as seen by i. */
+struct view {
+    vec3 axes[3], place; /* of j's frame in that of i, in sizes of i */
+    double scale;        /* size of j over that of i */
+    double reach;        /* in sizes of i */
+};
+
+static vec3 into_own(const vec3 axes[3], vec3 d)
+{
+    return v3(v3_dot(axes[0], d), v3_dot(axes[1], d), v3_dot(axes[2], d));
+}
+
+static vec3 out_of(const struct view *v, vec3 x)
+{
+    const vec3 turned = v3_add(v3_scale(x.x, v->axes[0]),
+                               v3_axpy(v3_scale(x.y, v->axes[1]), x.z, v->axes[2]));
+    return v3_axpy(v->place, v->scale, turned);
+}
+
+static void look(const struct shape_pose *i, const struct shape_pose *j, double reach,
+                 struct view *v)
+{
+    const double per = 1.0 / i->size;
+    const struct mat3 *const a = &i->turn, *const b = &j->turn;
+    const vec3 column[3] = {{b->row[0].x, b->row[1].x, b->row[2].x},
+                            {b->row[0].y, b->row[1].y, b->row[2].y},
+                            {b->row[0].z, b->row[1].z, b->row[2].z}};
+    for (int k = 0; k < 3; k++)
+        v->axes[k] = mat3_back(a, column[k]);
+    v->place = v3_scale(per, mat3_back(a, v3_sub(j->centre, i->centre)));
+    v->scale = j->size * per;
+    v->reach = reach * per;
+}
+
+/* Distance of a point from a box. */
+static double from_box(vec3 x, const struct dilated_part *p)
+{
+    const vec3 d = v3_sub(x, p->middle);
+    const double dx = fmax(fabs(d.x) - p->half.x, 0.0), dy = fmax(fabs(d.y) - p->half.y, 0.0),
+                 dz = fmax(fabs(d.z) - p->half.z, 0.0);
+    return sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+/* Neither the balls nor the boxes of two parts are further apart than the reach. */
+static bool near(const struct dilated_part *a, const struct dilated_part *b,
+                 const struct view *v)
+{
+    const vec3 middle = out_of(v, b->middle), apart = v3_sub(middle, a->middle);
+    const double most = a->radius + v->scale * b->radius + v->reach;
+    if (v3_dot(apart, apart) > most * most ||
+        from_box(middle, a) > v->scale * b->radius + v->reach)
+        return false;
+    const vec3 back =
+        v3_scale(1.0 / v->scale, into_own(v->axes, v3_sub(a->middle, v->place)));
+    return from_box(back, b) * v->scale <= a->radius + v->reach;
+}
+
+/* What is kept of a pair of parts between steps. */
+struct kept {
+    vec3 direction;
+    struct gap_memory simplex;
+};
+
+static bool recall(const real *memory, int kept, int pair, struct kept *k)
+{
+    *k = (struct kept){.direction = {0.0, 0.0, 0.0}};
+    const real *const m = &memory[DILATED_MEMORY * (pair % kept)];
+    if (m[0] != (real)(pair + 1))
+        return false;
+    k->direction = v3((double)m[1], (double)m[2], (double)m[3]);
+    for (int c = 0; c < 3 && m[4 + c] > (real)0.0; c++) {
+        const int packed = (int)m[4 + c] - 1;
+        k->simplex.a[c] = packed / POLYHEDRON_MOST;
+        k->simplex.b[c] = packed % POLYHEDRON_MOST;
+        k->simplex.n++;
+    }
+    return true;
+}
+
+static void remember(real *memory, int kept, int pair, const struct kept *k)
+{
+    real *const m = &memory[DILATED_MEMORY * (pair % kept)];
+    m[0] = (real)(pair + 1);
+    m[1] = (real)k->direction.x;
+    m[2] = (real)k->direction.y;
+    m[3] = (real)k->direction.z;
+    for (int c = 0; c < 3; c++)
+        m[4 + c] = c < k->simplex.n
+                       ? (real)(k->simplex.a[c] * POLYHEDRON_MOST + k->simplex.b[c] + 1)
+                       : (real)0.0;
+}
+
+static struct points own_points(const struct polyhedron *p)
+{
+    return (struct points){p->vertex_room, p->x, p->y, p->z};
+}
+
+/* How far apart the cores are along the direction, at least. */
+static double along(const struct polyhedron *a, const struct polyhedron *b,
+                    const struct view *v, vec3 direction)
+{
+    const struct points pa = own_points(a), pb = own_points(b);
+    double low, high;
+    points_lowest(&pa, direction, &low);
+    points_highest(&pb, into_own(v->axes, direction), &high);
+    return low - v->scale * high - v3_dot(v->place, direction);
+}
+
+struct scratch {
+    _Alignas(64) double x[POLYHEDRON_MOST];
+    _Alignas(64) double y[POLYHEDRON_MOST];
+    _Alignas(64) double z[POLYHEDRON_MOST];
+};
+
+static void turn_vertices(const struct polyhedron *p, const struct view *v, struct scratch *s)
+{
+    const vec3 ex = v3_scale(v->scale, v->axes[0]), ey = v3_scale(v->scale, v->axes[1]),
+               ez = v3_scale(v->scale, v->axes[2]), at = v->place;
+    for (int k = 0; k < p->vertex_room; k++) {
+        s->x[k] = at.x + ex.x * p->x[k] + ey.x * p->y[k] + ez.x * p->z[k];
+        s->y[k] = at.y + ex.y * p->x[k] + ey.y * p->y[k] + ez.y * p->z[k];
+        s->z[k] = at.z + ex.z * p->x[k] + ey.z * p->y[k] + ez.z * p->z[k];
+    }
+}
+
+static struct patch_body body_of(const struct polyhedron *p, struct points at,
+                                 const vec3 axes[3], vec3 place, double scale)
+{
+    return (struct patch_body){p, at, {axes[0], axes[1], axes[2]}, place, scale};
+}
+
+/* The point in the laboratory, m. */
+static struct shape_point make_point(const struct shape_pair *p, const struct patch_point *q,
+                                     vec3 n, double ri, double rj, int id)
+{
+    const double size = p->i.size;
+    const vec3 normal = mat3_turn(&p->i.turn, n);
+    const vec3 on_j = v3_scale(size, mat3_turn(&p->i.turn, q->on_b));
+    const double gap = size * q->gap, hi = size * ri, hj = size * rj;
+    const vec3 at = v3_axpy(on_j, 0.5 * (gap - hi + hj), normal);
+    const vec3 apart = v3_sub(p->j.centre, p->i.centre);
+    return (struct shape_point){.id = id + q->id,
+                                .depth = hi + hj - gap,
+                                .normal = normal,
+                                .at_i = at,
+                                .at_j = v3_sub(at, apart),
+                                .from_i = v3_axpy(on_j, gap, normal),
+                                .from_j = v3_sub(on_j, apart),
+                                .r_i = p->i.size,
+                                .r_j = p->j.size,
+                                .scale = fmin(p->i.size, p->j.size),
+                                .share = q->share};
+}
+
+/* What two parts are given to the search with. */
+struct parts {
+    const struct dilated *i, *j;
+    const struct polyhedron *a, *b;
+    int pair, first_id;
+};
+
+static int gather(const struct shape_pair *p, const struct parts *w, const struct patch_point *q,
+                  int n, vec3 normal, const struct view *v, int most, int have,
+                  struct shape_point *out)
+{
+    int count = have;
+    for (int k = 0; k < n; k++) {
+        const struct shape_point point =
+            make_point(p, &q[k], normal, w->i->r, v->scale * w->j->r, w->first_id);
+        if (point.depth < -p->reach)
+            continue;
+        if (count < most)
+            out[count] = point;
+        count++;
+    }
+    return count;
+}
+
+/* Adds the points of two parts to those that there are. */
+static int part_points(const struct shape_pair *p, const struct parts *w, const struct view *v,
+                       const struct detection *how, int kept, int most, int have,
+                       struct shape_point *out)
+{
+    static const vec3 own[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    const double dilation = w->i->r + v->scale * w->j->r, reach = v->reach + dilation;
+    struct kept keep;
+    struct scratch s;
+    struct gap gap;
+    struct patch_point q[PATCH_MOST];
+    if (recall(p->memory, kept, w->pair, &keep) &&
+        along(w->a, w->b, v, keep.direction) > reach)
+        return have;
+    turn_vertices(w->b, v, &s);
+    const struct points pa = own_points(w->a), pb = {w->b->vertex_room, s.x, s.y, s.z};
+    gap_find(&pa, w->a, &pb, w->b, v->axes, reach, &keep.simplex, &gap);
+    keep.direction = gap.normal;
+    remember(p->memory, kept, w->pair, &keep);
+    if (gap.distance >= reach)
+        return have;
+    const struct patch_body a = body_of(w->a, pa, own, v3(0.0, 0.0, 0.0), 1.0),
+                            b = body_of(w->b, pb, v->axes, v->place, v->scale);
+    if (how->detector == DETECTOR_ENVELOPE && gap.distance > 0.0) {
+        envelope_gap(&a, w->i->r, &b, v->scale * w->j->r, how->smoothness, &gap);
+        q[0] = (struct patch_point){patch_ids(w->a, w->b) - 1, 1.0, gap.distance, gap.on_b};
+        return gather(p, w, q, 1, gap.normal, v, most, have, out);
+    }
+    /* of one pair of parts those of the least shares are left out, of several none */
+    const int room = have == 0 && most < PATCH_MOST ? most : PATCH_MOST;
+    const int n = patch_find(&a, &b, &gap, how->tilt, room, q);
+    return gather(p, w, q, n, gap.normal, v, most, have, out);
+}
+
+int dilated_points(const struct dilated *i, const struct dilated *j, const struct detection *how,
+                   const struct shape_pair *p, int kept, int most, struct shape_point *out)
+{
+    struct view v;
+    int n = 0, first = 0;
+    look(&p->i, &p->j, p->reach, &v);
+    for (int a = 0; a < i->n_parts; a++)
+        for (int b = 0; b < j->n_parts; b++) {
+            const struct parts w = {i, j, i->part[a].core, j->part[b].core,
+                                    a * j->n_parts + b, first};
+            first += patch_ids(w.a, w.b);
+            if (i->n_parts + j->n_parts > 2 && !near(&i->part[a], &j->part[b], &v))
+                continue;
+            n = part_points(p, &w, &v, how, kept, most, n, out);
+        }
+    return n;
+}
