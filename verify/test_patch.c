@@ -5,7 +5,7 @@
 #include "polyhedra.h"
 
 #define TILT 0.1
-#define R 0.05
+#define R    0.05
 
 struct meeting {
     struct polyhedron *p, *q;
@@ -125,7 +125,8 @@ static void check_sums(void)
             polyhedron_free(m->q);
             m->q = cloud_of(r, 30, v3(1.0, 1.0, 1.0));
         }
-        turn_about(any_direction(r), trial % 2 ? between(r, 0.0, 3.0) : between(r, 0.0, 0.1), axes);
+        turn_about(any_direction(r), trial % 2 ? between(r, 0.0, 3.0) : between(r, 0.0, 0.1),
+                   axes);
         axes_are(&m->a, axes);
         m->a.at = v3(between(r, -1.0, 1.0), between(r, -1.0, 1.0), 2.0);
         meet(m);
@@ -159,7 +160,8 @@ static void on_way(struct meeting *m, int way, double s)
         m->a.at = v3(1.3 - 2.6 * s, 0.9 * s - 0.3, 1.09);
     } else if (way == 1) { /* turns on the spot */
         turn_about(up, 1.7 * s, axes);
-    } else if (way == 2) { /* tips over an edge from face to face, the lowest point at one height */
+    } else if (way ==
+               2) { /* tips over an edge from face to face, the lowest point at one height */
         turn_about(unit[0], 0.02 + 1.53 * s, axes);
     } else if (way == 3) { /* tips over a vertex */
         turn_about(tip, 0.6 * s - 0.3, axes);
@@ -252,9 +254,10 @@ static void check_envelope(void)
             bend = fmax(bend, v3_norm(v3_sub(e.normal, m->gap.normal)));
             meeting_free(m);
         }
-        check(sum / trials < last && isfinite(worst),
-              "envelope, k = %g: depth off by %.3g r in the mean, %.3g r at most; normal by %.2g",
-              k[c], sum / trials, worst, bend);
+        check(
+            sum / trials < last && isfinite(worst),
+            "envelope, k = %g: depth off by %.3g r in the mean, %.3g r at most; normal by %.2g",
+            k[c], sum / trials, worst, bend);
         last = sum / trials;
         gsl_rng_free(r);
     }

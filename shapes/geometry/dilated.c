@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#define PI          3.14159265358979323846
 #define UNIT_VOLUME (4.0 / 3.0 * PI)
 
 enum { COARSE = 48, ROUNDS = 4 };
@@ -38,8 +38,7 @@ static void set_box(struct dilated_part *p, double r)
     p->middle = v3_scale(0.5, v3_add(low, high));
     p->half = v3_add(v3_scale(0.5, v3_sub(high, low)), v3(r, r, r));
     for (int v = 0; v < c->n_vertices; v++)
-        p->radius =
-            fmax(p->radius, v3_norm(v3_sub(polyhedron_vertex(c, v), p->middle)) + r);
+        p->radius = fmax(p->radius, v3_norm(v3_sub(polyhedron_vertex(c, v), p->middle)) + r);
 }
 
 static void set_boxes(struct dilated *d)
@@ -156,8 +155,8 @@ static void add_balls(struct dilated *d)
         const struct polyhedron *const p = d->part[k].core;
         const int count = p->radius > 0.0 ? p->n_vertices : 1;
         for (int v = 0; v < count; v++)
-            d->ball[d->n_balls++] =
-                (struct shape_ball){.centre = polyhedron_vertex(p, v), .radius = d->r, .curve = 1.0};
+            d->ball[d->n_balls++] = (struct shape_ball){
+                .centre = polyhedron_vertex(p, v), .radius = d->r, .curve = 1.0};
     }
 }
 
@@ -167,7 +166,8 @@ static bool hulls(struct dilated *d, const struct solid *s, char **why)
         char *what = NULL;
         struct polyhedron *const p = polyhedron_hull(s->point[k], s->count[k], &what);
         if (!p) {
-            *why = s->n > 1 ? xprintf("part %d %s", k + 1, what) : xprintf("the solid %s", what);
+            *why =
+                s->n > 1 ? xprintf("part %d %s", k + 1, what) : xprintf("the solid %s", what);
             xfree(what);
             return false;
         }

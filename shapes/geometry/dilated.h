@@ -22,11 +22,12 @@ struct dilated_part {
 struct dilated {
     int n_parts;
     struct dilated_part part[PARTS_MOST];
-    double r;        /* of the ball */
-    double radius;   /* bounding, about the centre of mass */
-    double surface;  /* area */
-    vec3 inertia;    /* principal, over the mass */
-    double volume_error; /* of the grid: its volume over that of Steiner's formula, less 1; one part */
+    double r;       /* of the ball */
+    double radius;  /* bounding, about the centre of mass */
+    double surface; /* area */
+    vec3 inertia;   /* principal, over the mass */
+    double
+        volume_error; /* of the grid: its volume over that of Steiner's formula, less 1; one part */
     int n_balls;
     struct shape_ball *ball; /* at the vertices */
     int n_shadows;
@@ -58,10 +59,10 @@ void dilated_make_shadows(struct dilated *d);
 /* Points of contact of a pair, see shapes/shape.h; the memory has DILATED_MEMORY reals for each of
  * DILATED_KEPT pairs of parts. */
 enum { DILATED_KEPT = 6, DILATED_MEMORY = 7 };
-int dilated_points(const struct dilated *i, const struct dilated *j, const struct detection *how,
-                   const struct shape_pair *p, int kept, int most, struct shape_point *out);
-int dilated_facet(const struct dilated *d,
-                  const struct shape_pose *i, const struct shape_facet *f, double reach,
-                  int most, struct shape_point *out);
+int dilated_points(const struct dilated *i, const struct dilated *j,
+                   const struct detection *how, const struct shape_pair *p, int kept, int most,
+                   struct shape_point *out);
+int dilated_facet(const struct dilated *d, const struct shape_pose *i,
+                  const struct shape_facet *f, double reach, int most, struct shape_point *out);
 
 #endif

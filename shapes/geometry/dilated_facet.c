@@ -40,19 +40,20 @@ static void put(struct facet_search *s, int id, vec3 on_body, double distance, v
     const vec3 at = v3_scale(size, mat3_turn(&s->pose->turn, on_body));
     const double depth = size * (s->r - distance);
     if (s->n < s->most)
-        s->out[s->n] = (struct shape_point){
-            .id = s->id + id,
-            .depth = depth,
-            .normal = normal,
-            .at_i = v3_axpy(at, 0.5 * depth - size * s->r, normal),
-            .from_i = at,
-            .r_i = size,
-            .scale = size};
+        s->out[s->n] =
+            (struct shape_point){.id = s->id + id,
+                                 .depth = depth,
+                                 .normal = normal,
+                                 .at_i = v3_axpy(at, 0.5 * depth - size * s->r, normal),
+                                 .from_i = at,
+                                 .r_i = size,
+                                 .scale = size};
     s->n++;
 }
 
 /* A corner of the piece over a face of the core. */
-static void corner_on_face(struct facet_search *s, const struct polyhedron *p, int corner, int id)
+static void corner_on_face(struct facet_search *s, const struct polyhedron *p, int corner,
+                           int id)
 {
     const vec3 x = s->corner[corner];
     double most = -(double)INFINITY;
@@ -72,8 +73,8 @@ static void corner_on_face(struct facet_search *s, const struct polyhedron *p, i
 }
 
 /* An edge of the piece across an edge of the core, outside of it or a little inside. */
-static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int e, vec3 q, vec3 d,
-                         int id)
+static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int e, vec3 q,
+                         vec3 d, int id)
 {
     const vec3 a = polyhedron_vertex(p, p->edge[e][0]), b = polyhedron_vertex(p, p->edge[e][1]);
     const vec3 n1 = polyhedron_normal(p, p->edge_face[e][0]),

@@ -21,8 +21,8 @@ static vec3 into_own(const vec3 axes[3], vec3 d)
 
 static vec3 out_of(const struct view *v, vec3 x)
 {
-    const vec3 turned = v3_add(v3_scale(x.x, v->axes[0]),
-                               v3_axpy(v3_scale(x.y, v->axes[1]), x.z, v->axes[2]));
+    const vec3 turned =
+        v3_add(v3_scale(x.x, v->axes[0]), v3_axpy(v3_scale(x.y, v->axes[1]), x.z, v->axes[2]));
     return v3_axpy(v->place, v->scale, turned);
 }
 
@@ -59,8 +59,7 @@ static bool near(const struct dilated_part *a, const struct dilated_part *b,
     if (v3_dot(apart, apart) > most * most ||
         from_box(middle, a) > v->scale * b->radius + v->reach)
         return false;
-    const vec3 back =
-        v3_scale(1.0 / v->scale, into_own(v->axes, v3_sub(a->middle, v->place)));
+    const vec3 back = v3_scale(1.0 / v->scale, into_own(v->axes, v3_sub(a->middle, v->place)));
     return from_box(back, b) * v->scale <= a->radius + v->reach;
 }
 
@@ -168,9 +167,9 @@ struct parts {
     int pair, first_id;
 };
 
-static int gather(const struct shape_pair *p, const struct parts *w, const struct patch_point *q,
-                  int n, vec3 normal, const struct view *v, int most, int have,
-                  struct shape_point *out)
+static int gather(const struct shape_pair *p, const struct parts *w,
+                  const struct patch_point *q, int n, vec3 normal, const struct view *v,
+                  int most, int have, struct shape_point *out)
 {
     int count = have;
     for (int k = 0; k < n; k++) {
@@ -196,8 +195,7 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     struct scratch s;
     struct gap gap;
     struct patch_point q[PATCH_MOST];
-    if (recall(p->memory, kept, w->pair, &keep) &&
-        along(w->a, w->b, v, keep.direction) > reach)
+    if (recall(p->memory, kept, w->pair, &keep) && along(w->a, w->b, v, keep.direction) > reach)
         return have;
     turn_vertices(w->b, v, &s);
     const struct points pa = own_points(w->a), pb = {w->b->vertex_room, s.x, s.y, s.z};
@@ -219,16 +217,17 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     return gather(p, w, q, n, gap.normal, v, most, have, out);
 }
 
-int dilated_points(const struct dilated *i, const struct dilated *j, const struct detection *how,
-                   const struct shape_pair *p, int kept, int most, struct shape_point *out)
+int dilated_points(const struct dilated *i, const struct dilated *j,
+                   const struct detection *how, const struct shape_pair *p, int kept, int most,
+                   struct shape_point *out)
 {
     struct view v;
     int n = 0, first = 0;
     look(&p->i, &p->j, p->reach, &v);
     for (int a = 0; a < i->n_parts; a++)
         for (int b = 0; b < j->n_parts; b++) {
-            const struct parts w = {i, j, i->part[a].core, j->part[b].core,
-                                    a * j->n_parts + b, first};
+            const struct parts w = {
+                i, j, i->part[a].core, j->part[b].core, a * j->n_parts + b, first};
             first += patch_ids(w.a, w.b);
             if (i->n_parts + j->n_parts > 2 && !near(&i->part[a], &j->part[b], &v))
                 continue;

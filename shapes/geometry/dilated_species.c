@@ -4,7 +4,8 @@
 #include <string.h>
 
 #define PI 3.14159265358979323846
-#define TILT 0.1 /* patch.h: a few degrees, far above what contacts bend by, far below a right angle */
+#define TILT                                                                                   \
+    0.1 /* patch.h: a few degrees, far above what contacts bend by, far below a right angle */
 
 enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16, POINTS_SEVERAL = 32 };
 
@@ -55,7 +56,8 @@ static double read_spacing(struct scene *scene, const char *name, bool convex, d
     const double h = scene_real(scene, "grains", name, "mass_spacing") / size;
     if (h > 0.5 || h < 0.004)
         scene_error(scene, "grains", name, "mass_spacing",
-                    "must lie between 0.002 and 0.25 of the species' diameter, %g m", 2.0 * size);
+                    "must lie between 0.002 and 0.25 of the species' diameter, %g m",
+                    2.0 * size);
     return fmin(fmax(h, 0.004), 0.5);
 }
 
@@ -68,7 +70,8 @@ static long ids_of(const struct dilated *d)
     return n;
 }
 
-static struct dilated *read_body(struct scene *scene, const char *name, bool convex, double size)
+static struct dilated *read_body(struct scene *scene, const char *name, bool convex,
+                                 double size)
 {
     struct solid solid = {0};
     struct dilated *d = NULL;

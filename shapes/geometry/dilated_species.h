@@ -14,7 +14,12 @@ struct dilated_species {
 
 /* The keys that both have; `forms` is the list of names (forms.h). */
 #define DILATED_KEYS(forms)                                                                    \
-    {"grains", "form", KEY_CHOICE, "", forms " | mesh", "cube",                                \
+    {"grains",                                                                                 \
+     "form",                                                                                   \
+     KEY_CHOICE,                                                                               \
+     "",                                                                                       \
+     forms " | mesh",                                                                          \
+     "cube",                                                                                   \
      "solid whose corners and edges are rounded by the dilation"},                             \
         {"grains",                                                                             \
          "proportions",                                                                        \
@@ -39,7 +44,12 @@ struct dilated_species {
          "",                                                                                   \
          "",                                                                                   \
          "form = mesh: STL or OBJ file of the core; its size does not matter"},                \
-        {"grains", "detector", KEY_CHOICE, "", "gjk | envelope", "gjk",                        \
+        {"grains",                                                                             \
+         "detector",                                                                           \
+         KEY_CHOICE,                                                                           \
+         "",                                                                                   \
+         "gjk | envelope",                                                                     \
+         "gjk",                                                                                \
          "gjk: exact distance of the cores, faces held at their corners; envelope: one point " \
          "of contact by optimisation; of all species alike"},                                  \
     {                                                                                          \

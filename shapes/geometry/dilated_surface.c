@@ -41,7 +41,8 @@ static vec3 on_arc(vec3 a, vec3 b, double t)
 static void edges(const struct polyhedron *p, double r, struct shape_canvas *c)
 {
     for (int e = 0; e < p->n_edges; e++) {
-        const vec3 a = polyhedron_vertex(p, p->edge[e][0]), b = polyhedron_vertex(p, p->edge[e][1]);
+        const vec3 a = polyhedron_vertex(p, p->edge[e][0]),
+                   b = polyhedron_vertex(p, p->edge[e][1]);
         const vec3 left = polyhedron_normal(p, p->edge_face[e][0]),
                    right = polyhedron_normal(p, p->edge_face[e][1]);
         for (int k = 0; k < STRIPS; k++) {
@@ -87,7 +88,8 @@ static void draw_part(const struct polyhedron *p, double r, struct shape_canvas 
     }
     const vec3 e[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     for (int k = 0; k < 8; k++) {
-        const vec3 a = v3_scale(k & 1 ? -1.0 : 1.0, e[0]), b = v3_scale(k & 2 ? -1.0 : 1.0, e[1]),
+        const vec3 a = v3_scale(k & 1 ? -1.0 : 1.0, e[0]),
+                   b = v3_scale(k & 2 ? -1.0 : 1.0, e[1]),
                    d = v3_scale(k & 4 ? -1.0 : 1.0, e[2]);
         const bool even = ((k & 1) + (k >> 1 & 1) + (k >> 2 & 1)) % 2 == 0;
         patch(v3(0.0, 0.0, 0.0), r, a, even ? b : d, even ? d : b, DEPTH + 1, c);
@@ -178,7 +180,8 @@ static void shadow_triangle(struct shape_canvas *canvas, vec3 a, vec3 b, vec3 p)
                  by = v3_dot(b, s->e2), px = v3_dot(p, s->e1), py = v3_dot(p, s->e2);
     const double turn = side(ax, ay, bx, by, px, py) < 0.0 ? -1.0 : 1.0;
     for (int j = pixel(s, fmin(ay, fmin(by, py))); j <= pixel(s, fmax(ay, fmax(by, py))); j++)
-        for (int i = pixel(s, fmin(ax, fmin(bx, px))); i <= pixel(s, fmax(ax, fmax(bx, px))); i++) {
+        for (int i = pixel(s, fmin(ax, fmin(bx, px))); i <= pixel(s, fmax(ax, fmax(bx, px)));
+             i++) {
             const double x = (i + 0.5) * s->step - s->edge, y = (j + 0.5) * s->step - s->edge;
             s->dark[j][i] |= turn * side(ax, ay, bx, by, x, y) >= 0.0 &&
                              turn * side(bx, by, px, py, x, y) >= 0.0 &&
@@ -210,9 +213,7 @@ static double raster_shadow(const struct dilated *d, vec3 along)
 static vec3 node_direction(int axis, int i, int j)
 {
     const double a = 2.0 * i / (NODES - 1) - 1.0, b = 2.0 * j / (NODES - 1) - 1.0;
-    const vec3 x = axis == 0   ? v3(1.0, a, b)
-                   : axis == 1 ? v3(b, 1.0, a)
-                               : v3(a, b, 1.0);
+    const vec3 x = axis == 0 ? v3(1.0, a, b) : axis == 1 ? v3(b, 1.0, a) : v3(a, b, 1.0);
     return v3_scale(1.0 / v3_norm(x), x);
 }
 
@@ -239,7 +240,8 @@ static double shadow_of_one(const struct dilated *d, vec3 u)
         const bool two = v3_dot(polyhedron_normal(p, p->edge_face[e][1]), u) > 0.0;
         if (one == two)
             continue;
-        const vec3 a = polyhedron_vertex(p, p->edge[e][0]), b = polyhedron_vertex(p, p->edge[e][1]);
+        const vec3 a = polyhedron_vertex(p, p->edge[e][0]),
+                   b = polyhedron_vertex(p, p->edge[e][1]);
         const vec3 flat = v3_sub(v3_sub(b, a), v3_scale(v3_dot(v3_sub(b, a), u), u));
         round += v3_norm(flat);
         /* the outline runs along the edge of the face that is lit */
@@ -255,8 +257,14 @@ double dilated_shadow(const struct dilated *d, vec3 u)
     const double ax = fabs(u.x), ay = fabs(u.y), az = fabs(u.z);
     const int axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
     const double main = axis == 0 ? u.x : axis == 1 ? u.y : u.z;
-    const double a = (axis == 0 ? u.y : axis == 1 ? u.z : u.x) / main,
-                 b = (axis == 0 ? u.z : axis == 1 ? u.x : u.y) / main;
+    const double a = (axis == 0   ? u.y
+                      : axis == 1 ? u.z
+                                  : u.x) /
+                     main,
+                 b = (axis == 0   ? u.z
+                      : axis == 1 ? u.x
+                                  : u.y) /
+                     main;
     const double s = 0.5 * (a + 1.0) * (NODES - 1), t = 0.5 * (b + 1.0) * (NODES - 1);
     const int i = s < NODES - 2 ? (int)s : NODES - 2, j = t < NODES - 2 ? (int)t : NODES - 2;
     const double p = s - i, q = t - j;

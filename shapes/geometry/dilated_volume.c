@@ -32,7 +32,8 @@ static struct shape_part look(const struct dilated *d, vec3 low, double h)
     struct shape_part out = {.volume = 0.0};
     int n = 0;
     for (int k = 0; k < SUB * SUB * SUB; k++) {
-        const vec3 x = {low.x + h * (k % SUB + 0.5) / SUB, low.y + h * (k / SUB % SUB + 0.5) / SUB,
+        const vec3 x = {low.x + h * (k % SUB + 0.5) / SUB,
+                        low.y + h * (k / SUB % SUB + 0.5) / SUB,
                         low.z + h * (k / (SUB * SUB) + 0.5) / SUB};
         if (!dilated_holds(d, x))
             continue;

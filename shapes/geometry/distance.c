@@ -25,32 +25,44 @@ static inline lanes load(const double *x)
     return out;
 }
 
-/* A lane each looks through every eighth vertex; then the best of the lanes, the first of equals. */
+/* The greater of two in each lane. */
+static inline lanes greater(lanes a, lanes b)
+{
+    const counts first = a > b;
+    return (lanes)(((counts)a & first) | ((counts)b & ~first));
+}
+
+/* A lane each looks through every eighth vertex; then the best of the lanes, by halves: each carries
+ * its number in its last three bits, which decides between vertices equally high to 1e-15. */
 int points_highest(const struct points *p, vec3 along, double *height)
 {
-    counts at = {0, 1, 2, 3, 4, 5, 6, 7}, best = at;
+    const counts number = {0, 1, 2, 3, 4, 5, 6, 7};
+    counts best = number;
     lanes most = along.x * load(p->x) + along.y * load(p->y) + along.z * load(p->z);
     for (int k = POLYHEDRON_LANES; k < p->room; k += POLYHEDRON_LANES) {
-        at += POLYHEDRON_LANES;
         const lanes h =
             along.x * load(p->x + k) + along.y * load(p->y + k) + along.z * load(p->z + k);
         const counts higher = h > most;
-        most = (lanes)(((counts)h & higher) | ((counts)most & ~higher));
-        best = (at & higher) | (best & ~higher);
+        most = greater(h, most);
+        best = ((number + k) & higher) | (best & ~higher);
     }
-    double top = most[0];
-    long long index = best[0];
-    for (int l = 1; l < POLYHEDRON_LANES; l++) {
-        index = most[l] > top ? best[l] : index;
-        top = most[l] > top ? most[l] : top;
+    lanes a = (lanes)(((counts)most & ~7LL) | number);
+    a = greater(a, __builtin_shuffle(a, (counts){4, 5, 6, 7, 0, 1, 2, 3}));
+    a = greater(a, __builtin_shuffle(a, (counts){2, 3, 0, 1, 6, 7, 4, 5}));
+    a = greater(a, __builtin_shuffle(a, (counts){1, 0, 3, 2, 5, 4, 7, 6}));
+    int k = (int)(((counts)a)[0] & 7);
+    if (p->room > POLYHEDRON_LANES) {
+        long long index[POLYHEDRON_LANES];
+        memcpy(index, &best, sizeof index);
+        k = (int)index[k];
     }
-    *height = top;
-    return (int)index;
+    *height = along.x * p->x[k] + along.y * p->y[k] + along.z * p->z[k];
+    return k;
 }
 
 int points_lowest(const struct points *p, vec3 along, double *height)
 {
-    const int k = points_highest(p, v3_scale(-1.0, along), height);
+    const int k = points_highest(p, v3(-along.x, -along.y, -along.z), height);
     *height = -*height;
     return k;
 }

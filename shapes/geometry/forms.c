@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#define PI     3.14159265358979323846
 #define GOLDEN 1.61803398874989484820
 
 void solid_add(struct solid *s, const vec3 *point, int n)
@@ -50,7 +50,6 @@ static void add_brick(struct solid *s, vec3 low, vec3 high)
     solid_add(s, c, 8);
 }
 
-
 static void cube(struct solid *s, int sides)
 {
     (void)sides;
@@ -59,7 +58,8 @@ static void cube(struct solid *s, int sides)
 
 static void tetrahedron(struct solid *s, int sides)
 {
-    const vec3 c[4] = {{1.0, 1.0, 1.0}, {1.0, -1.0, -1.0}, {-1.0, 1.0, -1.0}, {-1.0, -1.0, 1.0}};
+    const vec3 c[4] = {
+        {1.0, 1.0, 1.0}, {1.0, -1.0, -1.0}, {-1.0, 1.0, -1.0}, {-1.0, -1.0, 1.0}};
     (void)sides;
     solid_add(s, c, 4);
 }
@@ -266,8 +266,8 @@ static void letter_c(struct solid *s, int sides)
 void solid_named(struct solid *s, int which, int sides)
 {
     static void (*const make[])(struct solid *, int) = {
-        cube,      tetrahedron, octahedron, icosahedron, dodecahedron, prism,    pyramid,
-        wedge,     cone_pair,   tetrapod,   dolos,       cross,        hollow_box, letter_o,
-        letter_t,  letter_z,    letter_k,   letter_a,    letter_c};
+        cube,     tetrahedron, octahedron, icosahedron, dodecahedron, prism,      pyramid,
+        wedge,    cone_pair,   tetrapod,   dolos,       cross,        hollow_box, letter_o,
+        letter_t, letter_z,    letter_k,   letter_a,    letter_c};
     make[which](s, sides);
 }

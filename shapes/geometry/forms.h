@@ -23,7 +23,8 @@ void solid_stretch(struct solid *s, vec3 factor);
 #define FORMS_CONVEX                                                                           \
     "cube | tetrahedron | octahedron | icosahedron | dodecahedron | prism | pyramid | wedge"
 #define FORMS_ALL                                                                              \
-    FORMS_CONVEX " | cone_pair | tetrapod | dolos | cross | hollow_box | O | T | Z | K | A | C"
+    FORMS_CONVEX " | cone_pair | tetrapod | dolos | cross | hollow_box | O | T | Z | K | A | " \
+                 "C"
 
 /* The solid that stands at that place of FORMS_ALL. `sides`: of the base of prism and pyramid. */
 void solid_named(struct solid *s, int which, int sides);

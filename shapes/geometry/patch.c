@@ -40,7 +40,7 @@ static void find_rim(const struct patch_body *b, vec3 out, double window, bool e
     double h[POLYHEDRON_MOST], most = -(double)INFINITY;
     for (int k = 0; k < p->n_vertices; k++) {
         h[k] = v3_dot(out, points_at(&b->at, k));
-        most = fmax(most, h[k]);
+        most = h[k] > most ? h[k] : most;
     }
     r->n = r->n_edges = 0;
     for (int k = 0; k < p->n_vertices && r->n < PATCH_NEAR; k++)
@@ -65,11 +65,15 @@ static bool height_over(const struct polyhedron *p, vec3 up, vec3 x, double *hei
         rise[f] = p->nx[f] * up.x + p->ny[f] * up.y + p->nz[f] * up.z;
         side[f] = p->nx[f] * x.x + p->ny[f] * x.y + p->nz[f] * x.z - p->off[f];
     }
-    for (int f = 0; f < p->face_room; f++)
-        if (rise[f] > UPRIGHT)
-            most = fmax(most, side[f] / rise[f]);
-    for (int f = 0; f < p->face_room; f++)
-        out = fmax(out, side[f] - most * (rise[f] > UPRIGHT ? rise[f] : fmin(rise[f], 0.0)));
+    for (int f = 0; f < p->face_room; f++) {
+        const double h = rise[f] > UPRIGHT ? side[f] / rise[f] : -1e300;
+        most = h > most ? h : most;
+    }
+    for (int f = 0; f < p->face_room; f++) {
+        const double slope = rise[f] > UPRIGHT || rise[f] < 0.0 ? rise[f] : 0.0;
+        const double h = side[f] - most * slope;
+        out = h > out ? h : out;
+    }
     *height = most;
     return out <= INSIDE * p->radius;
 }

@@ -11,8 +11,8 @@
 #include "dilated_species.h"
 
 enum { LINE = 4096, CROSSING_MOST = 20000 };
-#define SAME 1e-7  /* of the size: corners nearer than this are one */
-#define THIN 1e-10 /* twice the area over the square of the longest side */
+#define SAME   1e-7  /* of the size: corners nearer than this are one */
+#define THIN   1e-10 /* twice the area over the square of the longest side */
 #define CONVEX 1e-6
 
 /* Triangles of one part: three corners each, and their numbers once corners are joined. */
@@ -33,7 +33,8 @@ static void skin_add(struct skin *s, vec3 a, vec3 b, vec3 c)
 {
     if (s->n == s->room) {
         const int more = 2 * s->room + 64;
-        s->corner = xrealloc(s->corner, 3 * (size_t)s->room, 3 * (size_t)more, sizeof *s->corner);
+        s->corner =
+            xrealloc(s->corner, 3 * (size_t)s->room, 3 * (size_t)more, sizeof *s->corner);
         s->room = more;
     }
     s->corner[3 * s->n] = a;
@@ -275,8 +276,8 @@ static char *obj_face(const struct obj *o, const char *text, struct skin *skin)
             break;
         const long k = index < 0 ? o->n + index : index - 1;
         if (k < 0 || k >= o->n)
-            return xprintf("%s:%d: vertex %ld is not among the %d given before", o->path, o->line,
-                           index, o->n);
+            return xprintf("%s:%d: vertex %ld is not among the %d given before", o->path,
+                           o->line, index, o->n);
         if (count == 0)
             first = (int)k;
         if (count >= 2)
@@ -286,8 +287,7 @@ static char *obj_face(const struct obj *o, const char *text, struct skin *skin)
         at = end + strcspn(end, " \t\r\n");
         at += strspn(at, " \t\r\n");
     }
-    return count >= 3 ? NULL
-                      : xprintf("%s:%d: a face takes three vertices", o->path, o->line);
+    return count >= 3 ? NULL : xprintf("%s:%d: a face takes three vertices", o->path, o->line);
 }
 
 static char *obj_line(struct obj *o, const char *line, struct skins *out)
