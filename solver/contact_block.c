@@ -203,7 +203,7 @@ static void keep(const struct sim *s, struct block *b, struct slots *l)
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
     const double reach = s->neighbours.reach;
-    r->energy += laws_energy(b, reach);
+    r->energy += laws_energy(b, reach, NULL);
     for (int c = 0; c < b->n; c++) {
         const double depth = (double)b->t.depth[c], ri = (double)b->t.r_i[c];
         const double rj = b->t.r_j[c] > 0.0 ? (double)b->t.r_j[c] : ri;

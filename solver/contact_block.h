@@ -62,6 +62,7 @@ struct block {
     /* of the points of contact_points.c */
     real *memory[TOUCH]; /* rows of the laws */
     bool was[TOUCH];     /* it overlapped at the step before */
+    real share[TOUCH];   /* of the stiffness of its pair: factor of forces, couples, energy */
     real scale[TOUCH];   /* m, that overlap is measured by */
 };
 

@@ -91,7 +91,7 @@ void laws_apply(struct sim *s, struct block *b)
     bond_forces(&b->t, h);
 }
 
-double laws_energy(struct block *b, double reach)
+double laws_energy(struct block *b, double reach, const real *share)
 {
     double sum = 0.0;
     real(*h)[TOUCH] = b->history;
@@ -106,7 +106,7 @@ double laws_energy(struct block *b, double reach)
     bond_energy(&b->t, h);
     for (int c = 0; c < b->n; c++)
         if ((double)b->t.depth[c] > -reach)
-            sum += b->t.energy[c];
+            sum += share ? (double)share[c] * b->t.energy[c] : b->t.energy[c];
     return sum;
 }
 

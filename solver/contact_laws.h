@@ -33,7 +33,7 @@ void laws_note_broken(struct sim *s, const struct block *b, const struct slots *
 /* Forces and torques into rows, b->on. */
 void laws_pack(struct block *b);
 /* J, stored by the contacts within `reach`; after laws_apply. */
-double laws_energy(struct block *b, double reach);
+double laws_energy(struct block *b, double reach, const real *share);
 
 static inline double8 laws_wide(const real row[8])
 {

@@ -52,6 +52,7 @@ int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
     b->memory[c] = o->record + RECORD_HEAD;
     b->was[c] = o->was;
     b->scale[c] = (real)p->scale;
+    b->share[c] = p->share > 0.0 ? (real)p->share : (real)1.0;
     t->depth[c] = (real)p->depth;
     t->nx[c] = (real)p->normal.x;
     t->ny[c] = (real)p->normal.y;
@@ -99,10 +100,11 @@ static void pad(struct block *b)
     const int last = b->n - 1;
     int n = b->n;
     for (; n % TOUCH_LANES != 0; n++) {
-        real *const array[] = {t->depth, t->nx,   t->ny,   t->nz,   t->r_i,  t->r_j,  b->curve,
-                               b->inv_m, t->vx,   t->vy,   t->vz,   b->vx,   b->vy,   b->vz,
-                               b->px,    b->py,   b->pz,   b->qx,   b->qy,   b->qz,   b->l.ix,
-                               b->l.iy,  b->l.iz, b->l.jx, b->l.jy, b->l.jz, b->scale};
+        real *const array[] = {t->depth, t->nx,    t->ny,    t->nz,   t->r_i,  t->r_j,
+                               b->curve, b->inv_m, t->vx,    t->vy,   t->vz,   b->vx,
+                               b->vy,    b->vz,    b->px,    b->py,   b->pz,   b->qx,
+                               b->qy,    b->qz,    b->l.ix,  b->l.iy, b->l.iz, b->l.jx,
+                               b->l.jy,  b->l.jz,  b->scale, b->share};
         for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
             array[k][n] = array[k][last];
         b->slot[n] = b->slot[last];
@@ -146,6 +148,20 @@ static void keep(struct block *b, int law_rows)
     for (int c = 0; c < b->n; c++)
         for (int k = 0; k < law_rows; k++)
             b->memory[c][k] = b->history[k][c];
+}
+
+/* Points that share one stiffness take their parts of what the laws give for the whole. */
+static void share_out(struct block *b)
+{
+    struct touch *const t = &b->t;
+    for (int c = 0; c < t->n; c++) {
+        t->fx[c] *= b->share[c];
+        t->fy[c] *= b->share[c];
+        t->fz[c] *= b->share[c];
+        t->mx[c] *= b->share[c];
+        t->my[c] *= b->share[c];
+        t->mz[c] *= b->share[c];
+    }
 }
 
 static void guard(const struct block *b, real most, struct report *r)
@@ -221,7 +237,7 @@ static void note_seen(const struct sim *s, const struct block *b, int c)
 
 static void report_all(const struct sim *s, struct block *b, struct report *r)
 {
-    r->energy += laws_energy(b, s->neighbours.reach);
+    r->energy += laws_energy(b, s->neighbours.reach, b->share);
     for (int c = 0; c < b->n; c++) {
         const double depth = (double)b->t.depth[c];
         r->touching += depth > 0.0;
@@ -246,6 +262,7 @@ void points_work(struct sim *s, struct block *b, const struct target *to)
     starts(b);
     load_memory(b, law_rows);
     laws_apply(s, b);
+    share_out(b);
     laws_note_broken(s, b, l, to->time);
     keep(b, law_rows);
     laws_pack(b);

@@ -48,9 +48,15 @@ static void grow(struct meetings *all)
     all->room = more;
 }
 
+/* m; run.overlap_max is of the radius of curvature, but a ball may not go through the wall. */
+static double deepest_of(const struct sim *s, double curve, double radius)
+{
+    return fmin(curve, radius / s->run.overlap_max);
+}
+
 /* Adds what a ball meets: of the elements from `from` on, those that count. */
 static void meet(const struct sim *s, struct meetings *all, const struct around *a,
-                 struct facing *f, int n, double radius, vec3 centre, int id)
+                 struct facing *f, int n, double radius, double curve, vec3 centre, int id)
 {
     const double reach = radius + s->neighbours.reach;
     for (int k = 0; k < n; k++) {
@@ -61,7 +67,8 @@ static void meet(const struct sim *s, struct meetings *all, const struct around 
         struct shape_point p =
             shape_balls_meet(centre, radius, v3(0.0, 0.0, 0.0), 0.0, f[k].away, id);
         p.at_j = v3(0.0, 0.0, 0.0);
-        p.scale = radius;
+        p.r_i = curve > 0.0 ? curve : radius;
+        p.scale = curve > 0.0 ? deepest_of(s, curve, radius) : radius;
         all->m[all->n++] =
             (struct meeting){.f = f[k], .p = p, .place = mat3_back(&a->pose.turn, p.at_i)};
     }
@@ -90,7 +97,7 @@ static void meet_balls(const struct sim *s, struct meetings *all, const struct a
             if (near_enough(&seen[k], c, r + s->neighbours.reach))
                 f[n++] = facing_look(s, seen[k].slot, s->neighbours.walls.other[seen[k].slot],
                                      v3_add(x, c));
-        meet(s, all, a, f, n, r, c, q);
+        meet(s, all, a, f, n, r, a->pose.size * ball[q].curve, c, q);
     }
 }
 
@@ -131,7 +138,7 @@ static void meet_convex(const struct sim *s, struct meetings *all, const struct 
             facing_hidden(s, f, a->n, k, SAME * a->pose.size))
             continue;
         const vec3 c = v3_sub(own.centre, s->grains.pos[a->i]);
-        meet(s, all, a, &own, 1, inset, c, 0);
+        meet(s, all, a, &own, 1, inset, 0.0, c, 0);
         struct shape_point *const p = &all->m[all->n - 1].p;
         p->r_i = radius[k];
         p->scale = a->pose.size;

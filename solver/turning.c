@@ -21,6 +21,7 @@ static void read(struct grains *g, struct scene *scene)
         double q[4] = {1.0, 0.0, 0.0, 0.0};
         char rest;
         sp->turned = strcmp(text, "random") != 0;
+        sp->orientation = quat_one();
         if (!sp->turned || strcmp(text, "aligned") == 0)
             continue;
         const bool four =

@@ -210,6 +210,10 @@ struct dilated *dilated_create(const struct solid *s, double r, double spacing, 
     moments_principal(&m, &centre, inertia, axes);
     move(d, centre, 1.0, axes);
     d->inertia = v3(inertia[0] / m.volume, inertia[1] / m.volume, inertia[2] / m.volume);
+    const struct mat3 columns = {{{axes[0].x, axes[1].x, axes[2].x},
+                                  {axes[0].y, axes[1].y, axes[2].y},
+                                  {axes[0].z, axes[1].z, axes[2].z}}};
+    d->axes = quat_of_matrix(&columns);
     add_balls(d);
     return d;
 }

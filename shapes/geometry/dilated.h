@@ -22,10 +22,11 @@ struct dilated_part {
 struct dilated {
     int n_parts;
     struct dilated_part part[PARTS_MOST];
-    double r;       /* of the ball */
-    double radius;  /* bounding, about the centre of mass */
-    double surface; /* area */
-    vec3 inertia;   /* principal, over the mass */
+    double r;         /* of the ball */
+    double radius;    /* bounding, about the centre of mass */
+    double surface;   /* area */
+    vec3 inertia;     /* principal, over the mass */
+    struct quat axes; /* turns the principal axes to those in which the solid is described */
     double
         volume_error; /* of the grid: its volume over that of Steiner's formula, less 1; one part */
     int n_balls;
@@ -51,6 +52,7 @@ void dilated_free(struct dilated *d);
 
 /* Inside of it? */
 bool dilated_holds(const struct dilated *d, vec3 x);
+bool dilated_part_holds(const struct dilated *d, int part, vec3 x);
 struct shape_part *dilated_parts(const struct dilated *d, double spacing, int *n);
 void dilated_surface(const struct dilated *d, struct shape_canvas *c);
 double dilated_shadow(const struct dilated *d, vec3 along);

@@ -112,6 +112,7 @@ static void fill_form(struct dilated *d, struct shape_form *f)
     dilated_make_shadows(d);
     f->bounding = d->radius;
     f->inertia = d->inertia;
+    f->axes = d->axes;
     f->sphericity = fmin(4.0 * PI / d->surface, 1.0);
     if (d->n_parts == 1)
         f->points_most = corners < POINTS_ONE ? corners : POINTS_ONE;

@@ -110,13 +110,15 @@ struct area_canvas {
     double area;
 };
 
-static bool covered(const struct dilated *d, int part, vec3 x)
+/* Of a face that two parts have in common, the first part's counts. */
+static bool covered(const struct dilated *d, int part, vec3 x, vec3 normal)
 {
-    struct dilated other = *d;
-    for (int k = part; k < d->n_parts - 1; k++)
-        other.part[k] = d->part[k + 1];
-    other.n_parts--;
-    return dilated_holds(&other, x);
+    for (int k = 0; k < d->n_parts; k++) {
+        const double shift = k < part ? -1e-6 : 1e-6;
+        if (k != part && dilated_part_holds(d, k, v3_axpy(x, shift, normal)))
+            return true;
+    }
+    return false;
 }
 
 static void add_area(struct area_canvas *c, vec3 a, vec3 b, vec3 p)
@@ -133,8 +135,11 @@ static void add_area(struct area_canvas *c, vec3 a, vec3 b, vec3 p)
         return;
     }
     const vec3 middle = v3_scale(1.0 / 3.0, v3_add(a, v3_add(b, p)));
-    if (c->d->n_parts == 1 || !covered(c->d, c->part, middle))
-        c->area += 0.5 * v3_norm(v3_cross(ab, ap));
+    const vec3 twice = v3_cross(ab, ap);
+    const double area = 0.5 * v3_norm(twice);
+    if (area > 0.0 &&
+        (c->d->n_parts == 1 || !covered(c->d, c->part, middle, v3_scale(0.5 / area, twice))))
+        c->area += area;
 }
 
 static void area_triangle(struct shape_canvas *canvas, vec3 a, vec3 b, vec3 p)

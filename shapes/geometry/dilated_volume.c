@@ -18,6 +18,11 @@ static bool part_holds(const struct dilated_part *p, double r, vec3 x)
     return out <= r && polyhedron_distance(c, x) <= r;
 }
 
+bool dilated_part_holds(const struct dilated *d, int part, vec3 x)
+{
+    return part_holds(&d->part[part], d->r, x);
+}
+
 bool dilated_holds(const struct dilated *d, vec3 x)
 {
     for (int k = 0; k < d->n_parts; k++)

@@ -125,6 +125,12 @@ static char *find_open(const struct skin *s)
             side[3 * t + k] =
                 (struct ends){s->joined[3 * t + k], s->joined[3 * t + (k + 1) % 3], t};
     qsort(side, (size_t)n, sizeof *side, by_ends);
+    for (int k = 1; k < n && !why; k++)
+        if (side[k].from == side[k - 1].from && side[k].to == side[k - 1].to)
+            why =
+                at_place("has two triangles that run the same way along an edge (a fold, or "
+                         "normals that disagree)",
+                         v3_scale(0.5, v3_add(s->corner[side[k].from], s->corner[side[k].to])));
     for (int k = 0; k < n && !why; k++) {
         const struct ends back = {side[k].to, side[k].from, 0};
         const vec3 at = v3_scale(0.5, v3_add(s->corner[back.from], s->corner[back.to]));
@@ -136,11 +142,7 @@ static char *find_open(const struct skin *s)
             else
                 high = middle;
         }
-        if (k > 0 && side[k].from == side[k - 1].from && side[k].to == side[k - 1].to)
-            why = at_place("has two triangles that run the same way along an edge (a fold, or "
-                           "normals that disagree)",
-                           at);
-        else if (low == n || side[low].from != back.from || side[low].to != back.to)
+        if (low == n || side[low].from != back.from || side[low].to != back.to)
             why = at_place("is open: an edge with one triangle", at);
     }
     xfree(side);

@@ -1,0 +1,76 @@
+/* shapes/dilated_polyhedron.c - a grain is a convex polyhedron whose corners and edges are rounded by a
+ * ball: all points within its radius of a core (the Minkowski sum of both) [LiLiuJi23, eq. 1].
+ *
+ * Volume, surface and inertia are exact [Steiner1840]. Contact: the exact distance of the cores
+ * [Gilbert88] less both radii, shared by the corners of the common patch (geometry/patch.h): faces
+ * on faces are together as stiff as a vertex on a face, and the stiffness of all is that of two
+ * spheres of the grains' volumes (r_eff of the laws is made of the volume-equivalent radii; the seed
+ * leaves its R* open). Cores that overlap are still parted, along the direction of least overlap. Or
+ * the smoothed envelope of the seed [LiLiuJi23, eqs 12-13]: one point of contact. */
+#include "geometry/dilated_species.h"
+#include "shape.h"
+
+const struct about shape_about = {.name = "dilated_polyhedron",
+                                  .summary = "a convex polyhedron with rounded edges: cube, prism, STL ...",
+                                  .equation = "depth = r_i + r_j - distance of the cores",
+                                  .source = "LiLiuJi23, eqs 1, 12-13; Gilbert88",
+                                  .range = "overlaps below r_i + r_j"};
+const struct key shape_keys[] = {
+    DILATED_KEYS(FORMS_CONVEX),
+    {0}};
+
+static struct dilated_species all;
+
+static void init(struct scene *scene, const struct grains *g, struct shape_form *form)
+{
+    dilated_species_read(&all, true, scene, g, form);
+}
+
+static void finish(void)
+{
+    dilated_species_free(&all);
+}
+
+static int points(const struct shape_pair *p, int most, struct shape_point *out)
+{
+    return dilated_points(all.body[p->i.species], all.body[p->j.species], &all.how, p, all.kept,
+                          most, out);
+}
+
+static const struct shape_ball *balls(int species, int *n)
+{
+    *n = all.body[species]->n_balls;
+    return all.body[species]->ball;
+}
+
+static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach, int most,
+                 struct shape_point *out)
+{
+    return dilated_facet(all.body[i->species], i, f, reach, most, out);
+}
+
+static void surface(int species, struct shape_canvas *c)
+{
+    dilated_surface(all.body[species], c);
+}
+
+static struct shape_part *parts(int species, double spacing, int *n)
+{
+    return dilated_parts(all.body[species], spacing, n);
+}
+
+static double crosswise(int species, vec3 flow)
+{
+    return 3.14159265358979323846 / dilated_shadow(all.body[species], flow);
+}
+
+const struct shape shape = {.path = &contact_points,
+                            .init = init,
+                            .free = finish,
+                            .points = points,
+                            .memory = DILATED_MEMORY,
+                            .balls = balls,
+                            .facet = facet,
+                            .surface = surface,
+                            .parts = parts,
+                            .crosswise = crosswise};

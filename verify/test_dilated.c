@@ -1,0 +1,298 @@
+/* verify/test_dilated.c - grains of dilated polyhedra in whole runs: a cube on a plane and on a cube,
+ * a stack, an elastic bounce, a slope; the bodies of named and of read solids. */
+/* slots: shapes/dilated_polyhedron contact/hertz_mindlin */
+#include <stdlib.h>
+#include <string.h>
+#include <omp.h>
+#include <unistd.h>
+#include "../shapes/geometry/dilated_species.h"
+#include "check.h"
+#include "harness.h"
+
+#define MATERIAL "[material m]\nyoung = 20 MPa\npoisson = 0.3\n"
+#define CUBE                                                                                   \
+    "form = cube\ndilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
+
+/* mm, of a cube of side 10 with edges rounded by 1. */
+static double diameter_of_cube(void)
+{
+    const double a = 8.0, r = 1.0;
+    const double v = a * a * a + 6.0 * a * a * r + 3.0 * PI * a * r * r + 4.0 / 3.0 * PI * r * r * r;
+    return cbrt(6.0 * v / PI);
+}
+
+static double kinetic(const struct sim *s)
+{
+    const struct grains *const g = &s->grains;
+    double sum = 0.0;
+    for (int i = 0; i < g->n; i++)
+        sum += 0.5 * g->mass[i] * v3_dot(g->vel[i], g->vel[i]) +
+               0.2 * g->mass[i] * g->radius[i] * g->radius[i] * v3_dot(g->spin[i], g->spin[i]);
+    return sum;
+}
+
+static void run_for(struct sim *s, double time, double *most)
+{
+    const long steps = lround(time / (s->run.dt * s->run.substeps));
+    for (long k = 0; k < steps; k++) {
+        step(s);
+        *most = fmax(*most, kinetic(s));
+    }
+}
+
+/* Cubes one on the other, a hair apart at first, perhaps shifted. */
+static char *stack_of(int n, double shift)
+{
+    char *text = xprintf("[domain]\nsize = 100 100 200 mm\n[run]\nend = 10 s\nsubsteps = 20\n" MATERIAL
+                         "restitution = 0.3\nfriction = 0.5\n");
+    for (int k = 0; k < n; k++) {
+        char *const more = xprintf(
+            "%s[grains c%d]\n" CUBE "orientation = aligned\ndiameter = %.15g mm\n"
+            "position = %.15g %.15g %.15g mm\n",
+            text, k, diameter_of_cube(), 50.0 + shift * ((k * 7) % 5 - 2),
+            50.0 + shift * ((k * 3) % 5 - 2), 5.1 + 10.1 * k);
+        xfree(text);
+        text = more;
+    }
+    return text;
+}
+
+static void check_stack(int n, double shift, double time, double least)
+{
+    char *const text = stack_of(n, shift);
+    struct sim *const s = sim_from(text);
+    double most = 0.0, none = 0.0, walk = 0.0, turn = 0.0;
+    run_for(s, time, &most);
+    const double left = kinetic(s);
+    check(left < least * most, "stack of %d, shifted by %g mm: energy after %g s %.2g of its most", n,
+          shift, time, left / most);
+    vec3 *const at = xalloc((size_t)n, sizeof *at);
+    struct quat *const q = xalloc((size_t)n, sizeof *q);
+    for (int i = 0; i < n; i++) {
+        at[i] = s->grains.pos[i];
+        q[i] = s->grains.orientation[i];
+    }
+    run_for(s, 0.1, &none);
+    for (int i = 0; i < n; i++) {
+        walk = fmax(walk, v3_norm(v3_sub(s->grains.pos[i], at[i])));
+        turn = fmax(turn, fabs(s->grains.orientation[i].x - q[i].x) +
+                              fabs(s->grains.orientation[i].y - q[i].y) +
+                              fabs(s->grains.orientation[i].z - q[i].z));
+    }
+    check(walk < 1e-8 && turn < 1e-6, "  in 0.1 s more it walks by %.2g m and turns by %.2g", walk,
+          turn);
+    sim_free(s);
+    xfree(at);
+    xfree(q);
+    xfree(text);
+}
+
+/* J, of one cube that touches nothing. */
+static double energy_of(const struct sim *s)
+{
+    const struct grains *const g = &s->grains;
+    const struct shape_form *const f = &g->species[0].form;
+    const double size = g->radius[0] / f->bounding, i = f->inertia.x * g->mass[0] * size * size;
+    return g->mass[0] * (0.5 * v3_dot(g->vel[0], g->vel[0]) + 9.80665 * g->pos[0].z) +
+           0.5 * i * v3_dot(g->spin[0], g->spin[0]);
+}
+
+/* The cube drops on a corner, an edge, a face, anyhow, on a plane or a cube, without loss: its energy
+ * after some bounces, in flight. */
+static void check_bounce(const char *orientation, bool on_cube)
+{
+    char *const text = xprintf(
+        "[domain]\nsize = 100 100 100 mm\n[run]\nend = 10 s\nsubsteps = 1\nsafety = 0.05\n" MATERIAL
+        "restitution = 1\nfriction = 0\n[grains c]\n" CUBE
+        "orientation = %s\ndiameter = %.15g mm\nposition = 51 52 20 mm\n%s",
+        orientation, diameter_of_cube(),
+        on_cube ? "[grains d]\nfrozen = on\norientation = aligned\ndiameter = 40 mm\nform = cube\n"
+                  "dilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
+                  "position = 50 50 -8 mm\n"
+                : "");
+    struct sim *const s = sim_from(text);
+    const double start = energy_of(s);
+    double worst = 0.0;
+    int bounces = 0;
+    bool touched = false;
+    while (s->t < 0.3) {
+        step(s);
+        if (touched && s->neighbours.touching == 0) {
+            bounces++;
+            worst = fmax(worst, fabs(energy_of(s) / start - 1.0));
+        }
+        touched = s->neighbours.touching > 0;
+    }
+    check(bounces >= 3 && worst < 0.02, "%d bounces on a %s (%s): energy kept within %.2g", bounces,
+          on_cube ? "cube" : "plane", orientation, worst);
+    sim_free(s);
+    xfree(text);
+}
+
+/* On a slope below the angle of friction it stays, above it slides; it does not tip below 45 degrees. */
+static double slides(double angle)
+{
+    const double g = 9.81;
+    char *const text = xprintf(
+        "[domain]\nsize = 400 100 100 mm\ngravity = %.17g 0 %.17g m/s2\n[run]\nend = 10 s\n"
+        "substeps = 20\n" MATERIAL "restitution = 0.3\nfriction = 0.5\n[grains c]\n" CUBE
+        "orientation = aligned\ndiameter = %.15g mm\nposition = 50 50 5.0 mm\n",
+        g * sin(angle), -g * cos(angle), diameter_of_cube());
+    struct sim *const s = sim_from(text);
+    double most = 0.0;
+    run_for(s, 0.1, &most);
+    const double v = s->grains.vel[0].x;
+    check(v3_norm(s->grains.spin[0]) < 1.0, "slope of %.3g: spin %.2g", angle,
+          v3_norm(s->grains.spin[0]));
+    sim_free(s);
+    xfree(text);
+    return v;
+}
+
+static void check_slope(void)
+{
+    const double limit = atan(0.5);
+    check(slides(0.97 * limit) < 1e-4, "a cube on a slope of 0.97 of the angle of friction stays");
+    const double v = slides(1.1 * limit), g = 9.81;
+    const double want = 0.1 * g * (sin(1.1 * limit) - 0.5 * cos(1.1 * limit));
+    check_rel(v, want, 0.03, "of 1.1 of it, it slides as the law says, m/s after 0.1 s");
+}
+
+/* Volumes: those of the parts for grids, and the shadow's mean, a quarter of the surface of a convex body
+ * [Cauchy1841]. */
+static void check_body(int form, double r, bool convex)
+{
+    struct solid solid = {0};
+    char *why = NULL;
+    solid_named(&solid, form, 3);
+    struct dilated *const d = dilated_create(&solid, r, 0.05, &why);
+    if (!check(d != NULL, "form %d with dilation %g: %s", form, r, why ? why : "made"))
+        return;
+    dilated_make_shadows(d);
+    int n = 0;
+    struct shape_part *const part = dilated_parts(d, 0.2, &n);
+    double volume = 0.0, mean = 0.0;
+    vec3 first = {0.0, 0.0, 0.0};
+    for (int k = 0; k < n; k++) {
+        volume += part[k].volume;
+        first = v3_axpy(first, part[k].volume, part[k].at);
+    }
+    check_rel(volume, 4.0 / 3.0 * PI, 1e-12, "  volume of the parts for grids");
+    check(v3_norm(first) < 0.02 * volume, "  their centre is that of mass within %.2g",
+          v3_norm(first) / volume);
+    const int many = 500;
+    for (int k = 0; k < many; k++) {
+        const double z = (2.0 * k + 1.0) / many - 1.0, q = 2.399963229728653 * k, s = sqrt(1.0 - z * z);
+        mean += dilated_shadow(d, v3(s * cos(q), s * sin(q), z)) / many;
+    }
+    if (convex)
+        check_rel(mean, 0.25 * d->surface, 2e-3, "  mean shadow of a convex body: quarter surface");
+    else
+        check(mean < 0.25 * d->surface && d->surface > 4.0 * PI,
+              "  a concave body's shadow %.3g is less than a quarter of its surface %.3g", mean,
+              0.25 * d->surface);
+    xfree(part);
+    dilated_free(d);
+    solid_free(&solid);
+}
+
+/* A cube of two halves that overlap, as several parts: moments over a grid, to the order of its spacing. */
+static void check_grid_moments(void)
+{
+    const double spacing[] = {0.2, 0.1, 0.05};
+    double last = 1.0;
+    for (int k = 0; k < 3; k++) {
+        struct solid two = {0}, one = {0};
+        char *why = NULL;
+        vec3 c[8], d[8];
+        solid_named(&one, 0, 3);
+        for (int i = 0; i < 8; i++) {
+            c[i] = d[i] = one.point[0][i];
+            if (c[i].x > 0.0)
+                c[i].x = 0.3;
+            else
+                d[i].x = -0.4;
+        }
+        solid_add(&two, c, 8);
+        solid_add(&two, d, 8);
+        struct dilated *const a = dilated_create(&one, 0.15, spacing[k], &why),
+                              *const b = dilated_create(&two, 0.15, spacing[k], &why);
+        const double error = fmax(fabs(b->inertia.x / a->inertia.x - 1.0),
+                                  fabs(b->inertia.z / a->inertia.z - 1.0));
+        check(error < last && error < 0.2 * spacing[k],
+              "inertia over a grid of %g: off by %.2g", spacing[k], error);
+        last = fmax(error, 2e-4);
+        dilated_free(a);
+        dilated_free(b);
+        solid_free(&one);
+        solid_free(&two);
+    }
+}
+
+/* A box in OBJ with something wrong. */
+static void check_mesh(const char *faces, bool convex, const char *expected)
+{
+    char folder[] = "/tmp/silt_meshXXXXXX";
+    char *const path = mkdtemp(folder) ? xprintf("%s/part.obj", folder) : NULL;
+    struct solid s = {0};
+    char *why = NULL;
+    FILE *const f = fopen(path, "w");
+    fputs("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+          "v 0.5 0.5 0.7\n",
+          f);
+    fputs(faces, f);
+    fclose(f);
+    const bool good = solid_of_mesh(&s, path, convex, &why);
+    if (expected)
+        check(!good && why && strstr(why, expected), "refused: %s", why ? why : "not refused");
+    else
+        check(good && s.n > 0, "taken: %d parts %s", s.n, why ? why : "");
+    xfree(why);
+    solid_free(&s);
+    unlink(path);
+    rmdir(folder);
+    xfree(path);
+}
+
+#define SIDES "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+
+static void check_meshes(void)
+{
+    check_mesh(SIDES "f 4 3 2 1\nf 5 6 7 8\n", true, NULL);
+    check_mesh("o a\n" SIDES "f 4 3 2 1\nf 5 6 7 8\no b\n" SIDES "f 4 3 2 1\nf 5 6 7 8\n", false,
+               NULL);
+    check_mesh("o a\n" SIDES "f 4 3 2 1\nf 5 6 7 8\no b\n" SIDES "f 4 3 2 1\nf 5 6 7 8\n", true,
+               "holds 2 objects");
+    check_mesh(SIDES "f 4 3 2 1\n", true, "is open");
+    check_mesh("f 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\nf 1 2 3 4\nf 8 7 6 5\n", true,
+               "inside out");
+    check_mesh(SIDES "f 4 3 2 1\nf 8 7 6 5\n", true, "same way");
+    check_mesh(SIDES "f 4 3 2 1\nf 5 6 7 8\nf 1 1 2\n", true, "degenerate");
+    check_mesh(SIDES "f 4 3 2 1\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n", true, "not convex");
+    check_mesh(SIDES "f 4 3 2 1\nf 5 6 77\n", true, "vertex 77");
+    check_mesh("v 0.5 0.5 -0.5\n" SIDES "f 4 3 2 1\nf 5 6 10\nf 6 7 10\nf 7 8 10\nf 8 5 10\n", true,
+               "crosses itself");
+}
+
+int main(void)
+{
+    omp_set_num_threads(1); /* small scenes: more threads only wait for each other */
+    check_body(0, 0.1, true);
+    check_body(1, 0.3, true);
+    check_body(4, 0.05, true);
+    check_body(5, 0.2, true);
+    check_body(0, 1.0, true);
+    check_body(9, 0.1, false);
+    check_body(13, 0.05, false);
+    check_grid_moments();
+    check_meshes();
+    check_stack(1, 0.0, 0.3, 1e-12);
+    check_stack(3, 0.0, 0.3, 1e-12);
+    check_stack(3, 0.3, 0.6, 1e-6);
+    check_bounce("0.3 0.2 -0.4 0.1", false);
+    check_bounce("aligned", false);
+    check_bounce("1 0.02 0.01 0", false);
+    check_bounce("1 0.4142 0 0", false);
+    check_slope();
+    return check_end();
+}
