@@ -10,14 +10,13 @@
 #include "geometry/dilated_species.h"
 #include "shape.h"
 
-const struct about shape_about = {.name = "dilated_polyhedron",
-                                  .summary = "a convex polyhedron with rounded edges: cube, prism, STL ...",
-                                  .equation = "depth = r_i + r_j - distance of the cores",
-                                  .source = "LiLiuJi23, eqs 1, 12-13; Gilbert88",
-                                  .range = "overlaps below r_i + r_j"};
-const struct key shape_keys[] = {
-    DILATED_KEYS(FORMS_CONVEX),
-    {0}};
+const struct about shape_about = {
+    .name = "dilated_polyhedron",
+    .summary = "a convex polyhedron with rounded edges: cube, prism, STL ...",
+    .equation = "depth = r_i + r_j - distance of the cores",
+    .source = "LiLiuJi23, eqs 1, 12-13; Gilbert88",
+    .range = "overlaps below r_i + r_j"};
+const struct key shape_keys[] = {DILATED_KEYS(FORMS_CONVEX), {0}};
 
 static struct dilated_species all;
 
@@ -43,8 +42,8 @@ static const struct shape_ball *balls(int species, int *n)
     return all.body[species]->ball;
 }
 
-static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach, int most,
-                 struct shape_point *out)
+static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach,
+                 int most, struct shape_point *out)
 {
     return dilated_facet(all.body[i->species], i, f, reach, most, out);
 }

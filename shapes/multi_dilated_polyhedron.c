@@ -8,11 +8,12 @@
 #include "geometry/dilated_species.h"
 #include "shape.h"
 
-const struct about shape_about = {.name = "multi_dilated_polyhedron",
-                                  .summary = "overlapping dilated polyhedra as one concave grain: letters, dolos ...",
-                                  .equation = "contacts of the parts; mass over a grid",
-                                  .source = "LiLiuJi23, eqs 2-13, 21",
-                                  .range = "up to 64 convex parts a grain"};
+const struct about shape_about = {
+    .name = "multi_dilated_polyhedron",
+    .summary = "overlapping dilated polyhedra as one concave grain: letters, dolos ...",
+    .equation = "contacts of the parts; mass over a grid",
+    .source = "LiLiuJi23, eqs 2-13, 21",
+    .range = "up to 64 convex parts a grain"};
 const struct key shape_keys[] = {
     DILATED_KEYS(FORMS_ALL),
     {"grains", "mass_spacing", KEY_REAL, "m", "auto | (0, inf)", "auto",
@@ -43,8 +44,8 @@ static const struct shape_ball *balls(int species, int *n)
     return all.body[species]->ball;
 }
 
-static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach, int most,
-                 struct shape_point *out)
+static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach,
+                 int most, struct shape_point *out)
 {
     return dilated_facet(all.body[i->species], i, f, reach, most, out);
 }

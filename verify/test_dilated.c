@@ -10,14 +10,14 @@
 #include "harness.h"
 
 #define MATERIAL "[material m]\nyoung = 20 MPa\npoisson = 0.3\n"
-#define CUBE                                                                                   \
-    "form = cube\ndilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
+#define CUBE     "form = cube\ndilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
 
 /* mm, of a cube of side 10 with edges rounded by 1. */
 static double diameter_of_cube(void)
 {
     const double a = 8.0, r = 1.0;
-    const double v = a * a * a + 6.0 * a * a * r + 3.0 * PI * a * r * r + 4.0 / 3.0 * PI * r * r * r;
+    const double v =
+        a * a * a + 6.0 * a * a * r + 3.0 * PI * a * r * r + 4.0 / 3.0 * PI * r * r * r;
     return cbrt(6.0 * v / PI);
 }
 
@@ -43,14 +43,15 @@ static void run_for(struct sim *s, double time, double *most)
 /* Cubes one on the other, a hair apart at first, perhaps shifted. */
 static char *stack_of(int n, double shift)
 {
-    char *text = xprintf("[domain]\nsize = 100 100 200 mm\n[run]\nend = 10 s\nsubsteps = 20\n" MATERIAL
-                         "restitution = 0.3\nfriction = 0.5\n");
+    char *text =
+        xprintf("[domain]\nsize = 100 100 200 mm\n[run]\nend = 10 s\nsubsteps = 20\n" MATERIAL
+                "restitution = 0.3\nfriction = 0.5\n");
     for (int k = 0; k < n; k++) {
-        char *const more = xprintf(
-            "%s[grains c%d]\n" CUBE "orientation = aligned\ndiameter = %.15g mm\n"
-            "position = %.15g %.15g %.15g mm\n",
-            text, k, diameter_of_cube(), 50.0 + shift * ((k * 7) % 5 - 2),
-            50.0 + shift * ((k * 3) % 5 - 2), 5.1 + 10.1 * k);
+        char *const more =
+            xprintf("%s[grains c%d]\n" CUBE "orientation = aligned\ndiameter = %.15g mm\n"
+                    "position = %.15g %.15g %.15g mm\n",
+                    text, k, diameter_of_cube(), 50.0 + shift * ((k * 7) % 5 - 2),
+                    50.0 + shift * ((k * 3) % 5 - 2), 5.1 + 10.1 * k);
         xfree(text);
         text = more;
     }
@@ -64,8 +65,9 @@ static void check_stack(int n, double shift, double time, double least)
     double most = 0.0, none = 0.0, walk = 0.0, turn = 0.0;
     run_for(s, time, &most);
     const double left = kinetic(s);
-    check(left < least * most, "stack of %d, shifted by %g mm: energy after %g s %.2g of its most", n,
-          shift, time, left / most);
+    check(left < least * most,
+          "stack of %d, shifted by %g mm: energy after %g s %.2g of its most", n, shift, time,
+          left / most);
     vec3 *const at = xalloc((size_t)n, sizeof *at);
     struct quat *const q = xalloc((size_t)n, sizeof *q);
     for (int i = 0; i < n; i++) {
@@ -79,8 +81,8 @@ static void check_stack(int n, double shift, double time, double least)
                               fabs(s->grains.orientation[i].y - q[i].y) +
                               fabs(s->grains.orientation[i].z - q[i].z));
     }
-    check(walk < 1e-8 && turn < 1e-6, "  in 0.1 s more it walks by %.2g m and turns by %.2g", walk,
-          turn);
+    check(walk < 1e-8 && turn < 1e-6, "  in 0.1 s more it walks by %.2g m and turns by %.2g",
+          walk, turn);
     sim_free(s);
     xfree(at);
     xfree(q);
@@ -102,14 +104,15 @@ static double energy_of(const struct sim *s)
 static void check_bounce(const char *orientation, bool on_cube)
 {
     char *const text = xprintf(
-        "[domain]\nsize = 100 100 100 mm\n[run]\nend = 10 s\nsubsteps = 1\nsafety = 0.05\n" MATERIAL
-        "restitution = 1\nfriction = 0\n[grains c]\n" CUBE
+        "[domain]\nsize = 100 100 100 mm\n[run]\nend = 10 s\nsubsteps = 1\nsafety = "
+        "0.05\n" MATERIAL "restitution = 1\nfriction = 0\n[grains c]\n" CUBE
         "orientation = %s\ndiameter = %.15g mm\nposition = 51 52 20 mm\n%s",
         orientation, diameter_of_cube(),
-        on_cube ? "[grains d]\nfrozen = on\norientation = aligned\ndiameter = 40 mm\nform = cube\n"
-                  "dilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
-                  "position = 50 50 -8 mm\n"
-                : "");
+        on_cube
+            ? "[grains d]\nfrozen = on\norientation = aligned\ndiameter = 40 mm\nform = cube\n"
+              "dilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
+              "position = 50 50 -8 mm\n"
+            : "");
     struct sim *const s = sim_from(text);
     const double start = energy_of(s);
     double worst = 0.0;
@@ -123,8 +126,8 @@ static void check_bounce(const char *orientation, bool on_cube)
         }
         touched = s->neighbours.touching > 0;
     }
-    check(bounces >= 3 && worst < 0.02, "%d bounces on a %s (%s): energy kept within %.2g", bounces,
-          on_cube ? "cube" : "plane", orientation, worst);
+    check(bounces >= 3 && worst < 0.02, "%d bounces on a %s (%s): energy kept within %.2g",
+          bounces, on_cube ? "cube" : "plane", orientation, worst);
     sim_free(s);
     xfree(text);
 }
@@ -152,7 +155,8 @@ static double slides(double angle)
 static void check_slope(void)
 {
     const double limit = atan(0.5);
-    check(slides(0.97 * limit) < 1e-4, "a cube on a slope of 0.97 of the angle of friction stays");
+    check(slides(0.97 * limit) < 1e-4,
+          "a cube on a slope of 0.97 of the angle of friction stays");
     const double v = slides(1.1 * limit), g = 9.81;
     const double want = 0.1 * g * (sin(1.1 * limit) - 0.5 * cos(1.1 * limit));
     check_rel(v, want, 0.03, "of 1.1 of it, it slides as the law says, m/s after 0.1 s");
@@ -182,11 +186,13 @@ static void check_body(int form, double r, bool convex)
           v3_norm(first) / volume);
     const int many = 500;
     for (int k = 0; k < many; k++) {
-        const double z = (2.0 * k + 1.0) / many - 1.0, q = 2.399963229728653 * k, s = sqrt(1.0 - z * z);
+        const double z = (2.0 * k + 1.0) / many - 1.0, q = 2.399963229728653 * k,
+                     s = sqrt(1.0 - z * z);
         mean += dilated_shadow(d, v3(s * cos(q), s * sin(q), z)) / many;
     }
     if (convex)
-        check_rel(mean, 0.25 * d->surface, 2e-3, "  mean shadow of a convex body: quarter surface");
+        check_rel(mean, 0.25 * d->surface, 2e-3,
+                  "  mean shadow of a convex body: quarter surface");
     else
         check(mean < 0.25 * d->surface && d->surface > 4.0 * PI,
               "  a concave body's shadow %.3g is less than a quarter of its surface %.3g", mean,
@@ -259,8 +265,8 @@ static void check_mesh(const char *faces, bool convex, const char *expected)
 static void check_meshes(void)
 {
     check_mesh(SIDES "f 4 3 2 1\nf 5 6 7 8\n", true, NULL);
-    check_mesh("o a\n" SIDES "f 4 3 2 1\nf 5 6 7 8\no b\n" SIDES "f 4 3 2 1\nf 5 6 7 8\n", false,
-               NULL);
+    check_mesh("o a\n" SIDES "f 4 3 2 1\nf 5 6 7 8\no b\n" SIDES "f 4 3 2 1\nf 5 6 7 8\n",
+               false, NULL);
     check_mesh("o a\n" SIDES "f 4 3 2 1\nf 5 6 7 8\no b\n" SIDES "f 4 3 2 1\nf 5 6 7 8\n", true,
                "holds 2 objects");
     check_mesh(SIDES "f 4 3 2 1\n", true, "is open");
@@ -270,8 +276,8 @@ static void check_meshes(void)
     check_mesh(SIDES "f 4 3 2 1\nf 5 6 7 8\nf 1 1 2\n", true, "degenerate");
     check_mesh(SIDES "f 4 3 2 1\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n", true, "not convex");
     check_mesh(SIDES "f 4 3 2 1\nf 5 6 77\n", true, "vertex 77");
-    check_mesh("v 0.5 0.5 -0.5\n" SIDES "f 4 3 2 1\nf 5 6 10\nf 6 7 10\nf 7 8 10\nf 8 5 10\n", true,
-               "crosses itself");
+    check_mesh("v 0.5 0.5 -0.5\n" SIDES "f 4 3 2 1\nf 5 6 10\nf 6 7 10\nf 7 8 10\nf 8 5 10\n",
+               true, "crosses itself");
 }
 
 int main(void)
