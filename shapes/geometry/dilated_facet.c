@@ -3,6 +3,8 @@
  * or a face. (Vertices on the piece are balls, which walls of all kinds meet.) */
 #include "dilated.h"
 
+#define LEVEL 1e-6 /* slope of an edge that counts as along a face */
+
 /* Points of two segments that come nearest; false: on an end of the first. */
 static bool cross(vec3 p, vec3 d, vec3 q, vec3 e, vec3 *on_p, vec3 *on_q)
 {
@@ -28,6 +30,15 @@ struct facet_search {
     double r;
     struct shape_point *out;
 };
+
+/* Is a point of the wall in the core, if it is behind a face or edge of it? */
+static bool behind_all(const struct polyhedron *p, vec3 x)
+{
+    for (int f = 0; f < p->n_faces; f++)
+        if (v3_dot(polyhedron_normal(p, f), x) > p->off[f])
+            return false;
+    return true;
+}
 
 /* A point of the body at distance along n from one of the wall; `inside`: the wall's point is in the
  * core, and distance negative. */
@@ -66,6 +77,11 @@ static void corner_on_face(struct facet_search *s, const struct polyhedron *p, i
         }
     }
     const vec3 n = polyhedron_normal(p, face), foot = v3_axpy(x, -most, n);
+    const int corners = s->f->n;
+    const vec3 next = v3_sub(s->corner[(corner + 1) % corners], x),
+               last = v3_sub(s->corner[(corner + corners - 1) % corners], x);
+    if (v3_dot(n, next) < -LEVEL * v3_norm(next) || v3_dot(n, last) < -LEVEL * v3_norm(last))
+        return; /* the piece comes nearer elsewhere */
     for (int f = 0; f < p->n_faces; f++)
         if (f != face && v3_dot(polyhedron_normal(p, f), foot) - p->off[f] > 0.0)
             return; /* beside the face */
@@ -74,7 +90,7 @@ static void corner_on_face(struct facet_search *s, const struct polyhedron *p, i
 
 /* An edge of the piece across an edge of the core, outside of it or a little inside. */
 static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int e, vec3 q,
-                         vec3 d, int id)
+                         vec3 d, vec3 inward, int id)
 {
     const vec3 a = polyhedron_vertex(p, p->edge[e][0]), b = polyhedron_vertex(p, p->edge[e][1]);
     const vec3 n1 = polyhedron_normal(p, p->edge_face[e][0]),
@@ -90,7 +106,10 @@ static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int
     const double c = v3_dot(n1, n2), h1 = v3_dot(n, n1), h2 = v3_dot(n, n2);
     if (h1 < c * h2 || h2 < c * h1)
         return; /* not between the faces: the nearest is a face, not this edge */
-    put(s, id, on_body, v3_dot(n, v3_sub(on_wall, on_body)), v3_scale(-1.0, n));
+    const double distance = v3_dot(n, v3_sub(on_wall, on_body));
+    if (v3_dot(n, inward) < -LEVEL || (distance < 0.0 && !behind_all(p, on_wall)))
+        return; /* the inside of the piece comes nearer; or it passes behind the body */
+    put(s, id, on_body, distance, v3_scale(-1.0, n));
 }
 
 static void of_part(struct facet_search *s, const struct dilated_part *part)
@@ -100,8 +119,10 @@ static void of_part(struct facet_search *s, const struct dilated_part *part)
     for (int k = 0; k < corners; k++) {
         corner_on_face(s, p, k, k);
         const vec3 q = s->corner[k], d = v3_sub(s->corner[(k + 1) % corners], q);
+        const vec3 other = v3_sub(s->corner[(k + 2) % corners], q);
+        const vec3 inward = v3_axpy(other, -v3_dot(other, d) / v3_dot(d, d), d);
         for (int e = 0; e < p->n_edges; e++)
-            edge_on_edge(s, p, e, q, d, 4 + 4 * e + k);
+            edge_on_edge(s, p, e, q, d, v3_scale(1.0 / v3_norm(inward), inward), 4 + 4 * e + k);
     }
     s->id += 4 + 4 * p->n_edges;
 }

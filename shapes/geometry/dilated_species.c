@@ -7,7 +7,7 @@
 #define TILT                                                                                   \
     0.1 /* patch.h: a few degrees, far above what contacts bend by, far below a right angle */
 
-enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16, POINTS_SEVERAL = 32 };
+enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16, POINTS_SEVERAL = 64 };
 
 static void refuse(struct scene *scene, const char *name, const char *key, char *why)
 {

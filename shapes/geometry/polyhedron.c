@@ -44,7 +44,7 @@ static void make_room(struct polyhedron *p, int vertices, int faces, int loop)
     p->loop = xalloc((size_t)loop, sizeof(int));
 }
 
-/* The plane of a face through its vertices, in the mean if there are more than three [Newell]. */
+/* The plane of a face through its vertices, in the mean if there are more than three by the sum of its corner products. */
 static void set_plane(struct polyhedron *p, int f)
 {
     vec3 normal = v3(0.0, 0.0, 0.0), middle = normal;
