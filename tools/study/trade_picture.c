@@ -4,7 +4,7 @@
 #include "../../solver/picture.h"
 #include "trade.h"
 
-#define LEAST_SHOWN 1e-16 /* an error of 0 is shown here */
+#define ROUND_OFF 1e-15 /* smaller errors count as none */
 
 enum { MOST_NUMBERED = 60, MOST_LEGEND = 8 };
 
@@ -28,6 +28,19 @@ static bool shown(const struct trade *t, int i)
     return isfinite(t->cost[i]) && isfinite(t->error[i]) && t->cost[i] > 0.0;
 }
 
+/* Where a point is drawn: one without error at a third of the least error of the others, so that
+ * it does not stretch the picture. */
+static double error_shown(const struct trade *t, int i)
+{
+    double least = HUGE_VAL;
+    if (t->error[i] > ROUND_OFF)
+        return t->error[i];
+    for (int k = 0; k < t->study.n; k++)
+        if (shown(t, k) && t->error[k] > ROUND_OFF)
+            least = fmin(least, t->error[k]);
+    return isfinite(least) ? least / 3.0 : ROUND_OFF;
+}
+
 /* The axis of words (or else the first) colours the points. */
 static int colour_axis(const struct study *s)
 {
@@ -48,8 +61,8 @@ static void send_points(FILE *to, const struct trade *t, int axis)
         fprintf(to, "$p%d << END\n", g);
         for (int i = 0; i < s->n; i++)
             if (shown(t, i) && (axis < 0 || s->variant[i]->choice[axis] == g))
-                fprintf(to, "%.10g %.10g %.10g %.10g\n", t->cost[i],
-                        fmax(t->error[i], LEAST_SHOWN), t->low[i], t->high[i]);
+                fprintf(to, "%.10g %.10g %.10g %.10g\n", t->cost[i], error_shown(t, i),
+                        t->low[i], t->high[i]);
         fprintf(to, "NaN NaN NaN NaN\nEND\n");
     }
 }
@@ -73,17 +86,18 @@ static void send_labels(FILE *to, const struct trade *t, const int *order, int n
 {
     fprintf(to, "$front << END\n");
     for (int k = 0; k < n; k++)
-        fprintf(to, "%.10g %.10g\n", t->cost[order[k]], fmax(t->error[order[k]], LEAST_SHOWN));
+        fprintf(to, "%.10g %.10g\n", t->cost[order[k]], error_shown(t, order[k]));
     fprintf(to, "NaN NaN\nEND\n");
     for (int k = 0; k < n; k++) {
         const int i = order[k];
         char *const label = short_label(&t->study, t->study.variant[i]);
-        char *const text = xprintf("%d: %s", t->study.variant[i]->number, label);
+        char *const text = xprintf("%d: %s%s", t->study.variant[i]->number, label,
+                                   t->error[i] > ROUND_OFF ? "" : " (no error)");
         char *const what = xprintf("label %d", 100 + k);
         char *const options =
             xprintf("at %.10g,%.10g left offset 0.8,0.6 rotate by 12 font ',10' "
                     "tc '#222222' noenhanced front",
-                    t->cost[i], fmax(t->error[i], LEAST_SHOWN));
+                    t->cost[i], error_shown(t, i));
         picture_text(to, what, text, options);
         xfree(label);
         xfree(text);
@@ -97,8 +111,7 @@ static void send_labels(FILE *to, const struct trade *t, const int *order, int n
             fprintf(
                 to,
                 "set label %d '%d' at %.10g,%.10g left offset 0.6,0.3 font ',8' tc '#888888'\n",
-                1000 + i, t->study.variant[i]->number, t->cost[i],
-                fmax(t->error[i], LEAST_SHOWN));
+                1000 + i, t->study.variant[i]->number, t->cost[i], error_shown(t, i));
 }
 
 /* 1, 2, 5, 10, ...: decades alone would leave a short axis without a number. */
@@ -122,7 +135,7 @@ static bool send_ranges(FILE *to, const struct trade *t)
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0.0, 0.0};
     for (int i = 0; i < t->study.n; i++)
         if (shown(t, i)) {
-            const double at[2] = {t->cost[i], fmax(t->error[i], LEAST_SHOWN)};
+            const double at[2] = {t->cost[i], error_shown(t, i)};
             for (int a = 0; a < 2; a++) {
                 low[a] = fmin(low[a], at[a]);
                 high[a] = fmax(high[a], at[a]);
