@@ -262,9 +262,8 @@ static int points(const struct shape_pair *p, int most, struct shape_point *out)
                     const int q = with[k];
                     const vec3 at = v3(t.x[q], t.y[q], t.z[q]);
                     if (count < most)
-                        out[count] =
-                            shape_balls_meet(c, s.r[m], v3_sub(at, p->j.centre), t.r[q],
-                                             v3_sub(c, at), (start + m) * j->n + from + q);
+                        shape_balls_touch(&out[count], c, s.r[m], v3_sub(at, p->j.centre),
+                                          t.r[q], v3_sub(c, at), (start + m) * j->n + from + q);
                 }
             }
         }

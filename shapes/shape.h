@@ -94,24 +94,33 @@ struct shape_point {
 };
 
 /* The point at which two balls touch: the rounded vertices, edges and faces of shapes. Centres as
- * seen from x_i and x_j; `apart` = centre of ball i less centre of ball j. */
-static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, double rj,
-                                                  vec3 apart, int id)
+ * seen from x_i and x_j; `apart` = centre of ball i less centre of ball j. Written in place: copies of
+ * the structure would cost more than the sums. */
+static inline void shape_balls_touch(struct shape_point *restrict p, vec3 ci, double ri,
+                                     vec3 cj, double rj, vec3 apart, int id)
 {
     const double square = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
     const double inverse = (double)inverse_root((real)square), distance = square * inverse;
     const double half = 0.5 * (ri + rj - distance);
     const vec3 n = v3_scale(inverse, apart);
-    return (struct shape_point){.id = id,
-                                .depth = 2.0 * half,
-                                .normal = n,
-                                .at_i = v3_axpy(ci, half - ri, n),
-                                .at_j = v3_axpy(cj, rj - half, n),
-                                .from_i = ci,
-                                .from_j = cj,
-                                .r_i = ri,
-                                .r_j = rj,
-                                .scale = ri < rj ? ri : rj};
+    p->id = id;
+    p->depth = 2.0 * half;
+    p->normal = n;
+    p->at_i = v3_axpy(ci, half - ri, n);
+    p->at_j = v3_axpy(cj, rj - half, n);
+    p->from_i = ci;
+    p->from_j = cj;
+    p->r_i = ri;
+    p->r_j = rj;
+    p->scale = ri < rj ? ri : rj;
+}
+
+static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, double rj,
+                                                  vec3 apart, int id)
+{
+    struct shape_point p;
+    shape_balls_touch(&p, ci, ri, cj, rj, apart, id);
+    return p;
 }
 
 /* A ball of the species: body's frame, units of size. */

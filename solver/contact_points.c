@@ -8,6 +8,8 @@
 
 #include "turning.h"
 
+enum { AHEAD = 4 }; /* slots, whose memory is fetched before it is needed */
+
 #define CLOSE 0.1 /* of the size: a new contact goes on with the memory of one this near */
 
 struct cut points_cut(const struct sim *s)
@@ -400,6 +402,14 @@ static void leave(const struct sim *s, struct slots *l, int slot)
            (size_t)s->neighbours.rows * sizeof *l->memory);
 }
 
+static void fetch(const struct sim *s, const struct cut *cut, int slot)
+{
+    const real *const memory =
+        &s->neighbours.pairs.memory[(size_t)slot * s->neighbours.rows + cut->head];
+    for (int line = 0; line < 4; line++)
+        __builtin_prefetch(memory + line * 8, 1);
+}
+
 static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
                        const struct target *to)
 {
@@ -413,6 +423,8 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     b->walls = false;
     for (int k = 0; k < count; k++) {
         const int i = l->owner[slot[k]], j = l->other[slot[k]];
+        if (k + AHEAD < count) /* the memory of slots is large and cold */
+            fetch(s, &cut, slot[k + AHEAD]);
         const vec3 d = apart(s, i, j);
         const double cut_off = g->radius[i] + g->radius[j] + pair.reach;
         if (to->asked)
