@@ -21,6 +21,7 @@
 #include "../solver/probes.h"
 #include "../solver/insert.h"
 #include "../solver/run.h"
+#include "../solver/turning.h"
 #include "../solver/walls.h"
 
 struct folder {
@@ -288,6 +289,7 @@ static int print_keys(const char *program)
     keys_print(stdout, "", run_keys);
     keys_print(stdout, "\ngrains", grains_keys);
     keys_print(stdout, "", sizes_keys);
+    keys_print(stdout, "\nof shapes that are no spheres", turning.keys);
     keys_print(stdout, "\ngrains that come and go", insert_keys);
     keys_print(stdout, "\nwalls", wall_keys);
     keys_print(stdout, "", wall_motion_keys);
