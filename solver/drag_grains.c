@@ -100,23 +100,6 @@ void drag_grains_free(struct sim *s)
     xfree(s->coupling.drag_of.sauter);
 }
 
-void drag_grains_sauter(struct sim *s, const double *volume)
-{
-    struct coupling *const c = &s->coupling;
-    double *const out = c->drag_of.sauter;
-    if (!out)
-        return;
-#pragma omp parallel for schedule(static)
-    for (int i = 0; i < s->grains.n; i++)
-        c->values[(size_t)i * SPREAD_STRIDE] = s->grains.volume[i] / drag_grains_diameter(s, i);
-    spread_columns(&c->spread, NULL, c->values, 1, &c->drag_of.sauter);
-    if (c->diffuse)
-        diffuse_apply(c->diffuse, out);
-#pragma omp parallel for schedule(static)
-    for (size_t at = 0; at < s->grid.total; at++)
-        out[at] = out[at] > 0.0 ? volume[at] / out[at] : 1.0;
-}
-
 void drag_grains_warn(struct sim *s)
 {
     struct drag_grains *const g = &s->coupling.drag_of;

@@ -104,6 +104,7 @@ for name in "${scenes[@]}"; do
     mapfile -t fill < <(fill_of "$scene")
     lean=$(./run.sh build "$scene" "${short[@]}") || { bad=1; continue; }
     extra=$(foreign "$lean" "$scene")
+    [ -n "$(word "$scene" modules fluid)" ] || [[ " $(libraries "$lean") " != *" fftw3 "* ]] || extra+=" FFTW"
     full=$(./run.sh build "$scene" "${short[@]}" "${fill[@]}") || { bad=1; continue; }
     : > "$tmp/lean"
     : > "$tmp/full"
