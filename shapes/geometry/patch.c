@@ -144,6 +144,27 @@ static void merge(struct corners *c, double size)
     c->n = n;
 }
 
+/* Corners whose discs lie in that of the nearest one have no share. Distances over it are w. */
+static void prune(struct corners *c, double *w)
+{
+    int n = 0, first = 0;
+    for (int k = 1; k < c->n; k++)
+        first = w[k] < w[first] ? k : first;
+    const double u = c->u[first], v = c->v[first], lowest = w[first];
+    for (int k = 0; k < c->n; k++) {
+        const double du = c->u[k] - u, dv = c->v[k] - v, dw = w[k] - lowest;
+        if (k != first && dw * dw >= du * du + dv * dv)
+            continue;
+        c->id[n] = c->id[k];
+        c->gap[n] = c->gap[k];
+        c->on_b[n] = c->on_b[k];
+        c->u[n] = c->u[k];
+        c->v[n] = c->v[k];
+        w[n++] = w[k];
+    }
+    c->n = n;
+}
+
 /* Where disc j comes to lead over disc i, as the direction turns counter-clockwise: as an angle
  * from (ux, uy), on a scale from 0 to 4 that ascends with it; 5: never. */
 static inline double lead(const struct corners *c, const double *w, int i, int j, double ux,
@@ -224,7 +245,11 @@ static void share_out(struct corners *c, vec3 n, double tilt, double size)
         least = fmin(least, c->gap[k]);
     for (int k = 0; k < c->n; k++)
         w[k] = (c->gap[k] - least) / tilt;
-    walk(c, w);
+    prune(c, w);
+    if (c->n == 1)
+        c->share[0] = 1.0;
+    else
+        walk(c, w);
 }
 
 static int hand_out(const struct corners *c, int most, struct patch_point *out)

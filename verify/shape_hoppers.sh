@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# verify/shape_hoppers.sh [FILLINGS] [section.key=value ...] - prisms and cone pairs run out of the hopper of
+# [LiLiuJi23, figs 6 to 9], each from FILLINGS (5) random fillings: the fraction of grains left in it, least,
+# mean and most of the fillings, against time after the gate. Hours on one core.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+fillings=${1:-5}
+shift || true
+out=out/shape_hoppers
+mkdir -p "$out"
+left() { # DIR: time since the gate, fraction left
+    local t m
+    t=$(ncdump -v series_time "$1/run.nc" | sed -n '/^ series_time =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
+    m=$(ncdump -v slot_count "$1/run.nc" | sed -n '/^ slot_count =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
+    paste <(tr ',' '\n' <<< "$t") <(tr ',' '\n' <<< "$m") |
+        awk -v n="$2" '$1 >= 0.9 { printf "%.2f %.4f\n", $1 - 0.9, 1 - $2 / n }'
+}
+for scene in prism_hopper cone_pair_hopper; do
+    : > "$out/$scene.all"
+    for k in $(seq "$fillings"); do
+        ./run.sh "scenes/$scene.ini" "run.seed=$k" "$@" -o "$out/$scene.$k" > "$out/log" 2>&1 ||
+            { tail -n 3 "$out/log"; exit 1; }
+        left "$out/$scene.$k" "$(ncdump -h "$out/$scene.$k/run.nc" | sed -n 's/.*grain = \([0-9]*\).*/\1/p' | head -n 1)" \
+            >> "$out/$scene.all"
+    done
+    echo "$scene: s after the gate, fraction left: least, mean, most of $fillings fillings"
+    sort -n "$out/$scene.all" | awk '{ t = $1; if (t != last && n) { print last, low, sum / n, high; n = 0 }
+        if (!n) { low = high = $2; sum = 0 } if ($2 < low) low = $2; if ($2 > high) high = $2
+        sum += $2; n++; last = t } END { if (n) print last, low, sum / n, high }' | tee "$out/$scene.txt"
+done
