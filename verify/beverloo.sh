@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
 # verify/beverloo.sh - Beverloo's 5/2 power: a flat-bottomed round hopper, its bottom a plate with a
-# circular orifice with sharp edges; five orifices; C and k by least squares of
+# circular orifice with sharp edges; six orifices; C and k by least squares of
 #   (W/(rho_b sqrt(g)))^(2/5) = C^(2/5) (D - k d)
 # against what is published for spheres, C 0.55 to 0.65 and k 1.3 to 1.6 [Beverloo61]. The power is
-# fitted too: log W against log(D - 1.4 d). rho_b is that of the moving bed above the orifice. The
-# hopper is 2.4 D wide at least, and its bed higher than wide. About 5 minutes on a quiet core.
+# fitted too: log W against log(D - 1.4 d). rho_b is that of the grains that flow: in a box as wide as
+# the orifice, from 0.5 D to 1.5 D over it, the same in shape for all. The hopper is 2.4 D wide at least,
+# and its bed higher than wide. About 15 minutes on a quiet core.
 #   verify/beverloo.sh [D/d ...]
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
-[ $# -gt 0 ] || set -- 5 6 7 8 10
+[ $# -gt 0 ] || set -- 5 6 7 8 10 12
 for ratio; do
-    # mm: hopper, its height, region of the bulk density; s: when the rate is taken, more for a trickle
-    read -r wide high half until <<< "$(awk -v r="$ratio" 'BEGIN {
-        w = 2 * (r < 25 / 3 ? 20 : 2.4 * r); print w, 1.3 * w, 0.3 * w, 0.15 + 3.2 / (r - 1.4) ^ 1.4 }')"
+    # mm: hopper, its height; s: when the rate is taken, longer for a trickle
+    read -r wide high until <<< "$(awk -v r="$ratio" 'BEGIN {
+        w = 2 * (r < 25 / 3 ? 20 : 2.4 * r); print w, 1.3 * w, 0.15 + 5 / (r - 1.4) ^ 1.4 }')"
     cat > "$tmp/hopper.ini" <<TEXT
 [modules]
 contact   = hertz_mindlin
@@ -51,8 +52,8 @@ friction    = 0.5
 point  = 0 0 4 mm
 normal = 0 0 -1
 [region above]
-from = $(awk -v w="$wide" -v h="$half" 'BEGIN { print w / 2 - h, w / 2 - h, 14 }') mm
-to   = $(awk -v w="$wide" -v h="$half" 'BEGIN { print w / 2 + h, w / 2 + h, 30 }') mm
+from = $(awk -v w="$wide" -v r="$ratio" 'BEGIN { print w / 2 - r, w / 2 - r, 6 + r }') mm
+to   = $(awk -v w="$wide" -v r="$ratio" 'BEGIN { print w / 2 + r, w / 2 + r, 6 + 3 * r }') mm
 [reference]
 orifice   = $(awk -v r="$ratio" 'BEGIN { print 2 * r }') mm
 after     = 0.15 s
