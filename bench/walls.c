@@ -123,9 +123,7 @@ int main(void)
         {.name = "no contact", .put = apart, .wall = ""},
         {.name = "two grains", .put = pairs, .wall = ""},
         {.name = "side of the box", .put = bottom, .wall = ""},
-        {.name = "plane",
-         .put = low,
-         .wall = "[wall w]\npoint = 0 0 20 mm\nnormal = 0 0 1\n"},
+        {.name = "plane", .put = low, .wall = "[wall w]\npoint = 0 0 20 mm\nnormal = 0 0 1\n"},
         {.name = "rectangle",
          .put = low,
          .wall = "[wall w]\nkind = rectangle\ncorner = 0 0 20 mm\nedge1 = 90 0 0 mm\n"
@@ -154,7 +152,8 @@ int main(void)
            GRAINS);
     double grains = 1.0;
     for (int k = 1; k < CASES; k++) {
-        const double ns = 1e9 * (median(place[k].cost) - none) / fmax(1.0, (double)place[k].contacts);
+        const double ns =
+            1e9 * (median(place[k].cost) - none) / fmax(1.0, (double)place[k].contacts);
         grains = k == 1 ? ns : grains;
         printf("  %-32s %8ld %14.1f %18.2f\n", place[k].name, place[k].contacts, ns,
                ns / grains);

@@ -7,16 +7,20 @@
 struct facing facing_look(const struct sim *s, int slot, int element, vec3 centre)
 {
     const int wall = s->walls.wall_of[element];
-    const struct wall_seen seen = wall_see(s, element, centre);
-    return (struct facing){.slot = slot,
-                           .wall = wall,
-                           .local = element - s->walls.first[wall],
-                           .centre = centre,
-                           .away = seen.view.away,
-                           .distance = v3_norm(seen.view.away),
-                           .curvature = seen.view.curvature,
-                           .arm = seen.arm,
-                           .part = seen.view.part};
+    struct wall_seen seen;
+    struct facing f; /* number by number, see wall_kind.h */
+    wall_look(s, element, &centre, &seen);
+    f.slot = slot;
+    f.wall = wall;
+    f.local = element - s->walls.first[wall];
+    f.centre = v3(centre.x, centre.y, centre.z);
+    f.away = v3(seen.view.away.x, seen.view.away.y, seen.view.away.z);
+    f.distance = v3_norm(f.away);
+    f.curvature = seen.view.curvature;
+    f.arm = v3(seen.arm.x, seen.arm.y, seen.arm.z);
+    f.part = seen.view.part;
+    f.counts = f.live = false;
+    return f;
 }
 
 /* The nearest point of k lies on element m too: the distance of m from it is nothing. */

@@ -13,7 +13,9 @@ void walls_choose(struct sim *s, int run, int first, int last)
     int n = 0;
     for (int slot = l->begin[first]; slot < l->begin[last]; slot++) {
         const int i = l->owner[slot];
-        const vec3 d = wall_see(s, l->other[slot], s->grains.pos[i]).view.away;
+        struct wall_seen seen;
+        wall_look(s, l->other[slot], &s->grains.pos[i], &seen);
+        const vec3 d = seen.view.away;
         const double cut = s->grains.radius[i] + margin;
         active[n] = slot;
         n += l->live[slot] || v3_dot(d, d) < cut * cut;

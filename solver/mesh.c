@@ -20,25 +20,30 @@ static double segment(vec3 from, vec3 along, vec3 x, vec3 *away, enum wall_part 
     return v3_dot(*away, *away);
 }
 
-struct wall_view triangle_view(const struct triangle *t, vec3 x)
+/* The nearest of its edges and corners. */
+static void view_rim(const struct triangle *t, vec3 x, struct wall_view *out)
 {
-    const vec3 rel = v3_sub(x, t->a);
-    const double u = v3_dot(rel, t->g1), v = v3_dot(rel, t->g2);
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0)
-        return (struct wall_view){.away = v3_scale(v3_dot(rel, t->normal), t->normal)};
     const vec3 from[3] = {t->a, t->a, v3_add(t->a, t->e1)};
     const vec3 along[3] = {t->e1, t->e2, v3_sub(t->e2, t->e1)};
-    struct wall_view best = {.part = WALL_EDGE};
     double least = (double)INFINITY;
     for (int k = 0; k < 3; k++) {
         struct wall_view view = {.part = WALL_EDGE};
         const double square = segment(from[k], along[k], x, &view.away, &view.part);
         if (square < least) {
             least = square;
-            best = view;
+            *out = view;
         }
     }
-    return best;
+}
+
+void triangle_view(const struct triangle *t, const vec3 *x, struct wall_view *out)
+{
+    const vec3 at = v3(x->x, x->y, x->z), rel = v3_sub(at, t->a);
+    const double u = v3_dot(rel, t->g1), v = v3_dot(rel, t->g2);
+    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0)
+        wall_view_put(out, v3_scale(v3_dot(rel, t->normal), t->normal), 0.0, WALL_FACE);
+    else
+        view_rim(t, at, out);
 }
 
 static bool set_triangle(struct triangle *t, const vec3 *c)
@@ -204,8 +209,9 @@ void mesh_near(const struct mesh *m, vec3 x, double reach, struct found *out)
             continue;
         }
         for (int i = node->first; i < node->first + node->n; i++) {
-            const vec3 d = triangle_view(&m->triangle[i], x).away;
-            if (v3_dot(d, d) < square)
+            struct wall_view view;
+            triangle_view(&m->triangle[i], &x, &view);
+            if (v3_dot(view.away, view.away) < square)
                 found_add(out, i);
         }
     }

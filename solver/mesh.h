@@ -31,7 +31,7 @@ vec3 *mesh_read_stl(const char *path, int *n, char **why);
 struct mesh *mesh_create(const vec3 *corner, int n, char **why);
 void mesh_free(void *mesh);
 
-struct wall_view triangle_view(const struct triangle *t, vec3 x);
+void triangle_view(const struct triangle *t, const vec3 *x, struct wall_view *out);
 void mesh_near(const struct mesh *m, vec3 x, double reach, struct found *out);
 
 #endif

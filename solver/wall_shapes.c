@@ -46,11 +46,11 @@ static double height(const struct wall_flat *p, vec3 x)
     return v3_dot(v3_sub(x, p->point), p->normal);
 }
 
-struct wall_view wall_flat_view(const void *shape, int element, vec3 x)
+void wall_flat_view(const void *shape, int element, const vec3 *x, struct wall_view *out)
 {
     const struct wall_flat *const p = shape;
     (void)element;
-    return (struct wall_view){.away = v3_scale(height(p, x), p->normal)};
+    wall_view_put(out, v3_scale(height(p, v3(x->x, x->y, x->z)), p->normal), 0.0, WALL_FACE);
 }
 
 /* What is behind it is near too: it is to be found. */
@@ -137,46 +137,51 @@ const struct wall_kind wall_side = {.name = "side",
                                     .bounds = wall_flat_bounds,
                                     .sweep = wall_flat_sweep};
 
-struct wall_view wall_rectangle_view(vec3 origin, vec3 e1, vec3 e2, vec3 x)
+static double clamped(double t)
 {
-    const vec3 rel = v3_sub(x, origin);
+    return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+}
+
+void wall_rectangle_view(const vec3 *origin, const vec3 *edge1, const vec3 *edge2,
+                         const vec3 *x, struct wall_view *out)
+{
+    const vec3 e1 = *edge1, e2 = *edge2;
+    const vec3 rel = v3(x->x - origin->x, x->y - origin->y, x->z - origin->z);
     const double u = v3_dot(rel, e1) / v3_dot(e1, e1), v = v3_dot(rel, e2) / v3_dot(e2, e2);
-    const double a = fmin(fmax(u, 0.0), 1.0), b = fmin(fmax(v, 0.0), 1.0);
+    const double a = clamped(u), b = clamped(v);
     const int outside = (a != u) + (b != v);
-    struct wall_view view = {.part = outside == 0   ? WALL_FACE
-                                     : outside == 1 ? WALL_EDGE
-                                                    : WALL_VERTEX};
     if (outside == 0) { /* along the normal, without the rounding of a difference of points */
         vec3 n = v3_cross(e1, e2);
         n = v3_scale(1.0 / v3_norm(n), n);
-        view.away = v3_scale(v3_dot(rel, n), n);
+        wall_view_put(out, v3_scale(v3_dot(rel, n), n), 0.0, WALL_FACE);
     } else {
-        view.away = v3_axpy(v3_axpy(rel, -a, e1), -b, e2);
+        wall_view_put(out, v3_axpy(v3_axpy(rel, -a, e1), -b, e2), 0.0,
+                      outside == 1 ? WALL_EDGE : WALL_VERTEX);
     }
-    return view;
 }
 
 /* In the half-plane of x the strip is a segment. */
-struct wall_view wall_strip_view(const struct wall_strip *s, vec3 x)
+void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out)
 {
-    const vec3 rel = v3_sub(x, s->foot);
+    const vec3 rel = v3(x->x - s->foot.x, x->y - s->foot.y, x->z - s->foot.z);
     const double h = v3_dot(rel, s->axis);
     const vec3 radial = v3_axpy(rel, -h, s->axis);
     const double r = v3_norm(radial);
-    const vec3 out = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
     const double dh = s->h1 - s->h0, dr = s->r1 - s->r0;
     const double t = ((h - s->h0) * dh + (r - s->r0) * dr) / (dh * dh + dr * dr);
-    const double at = fmin(fmax(t, 0.0), 1.0), up = h - (s->h0 + at * dh);
+    const double at = clamped(t), up = h - (s->h0 + at * dh);
     const double radius = s->r0 + at * dr, beyond = r - radius;
-    struct wall_view view = {.away = v3_axpy(v3_scale(up, s->axis), beyond, out)};
+    double curvature = 0.0;
+    enum wall_part part = WALL_FACE;
     const double distance = sqrt(up * up + beyond * beyond);
     if (at != t && radius > 0.0)
-        view.part = WALL_EDGE;
+        part = WALL_EDGE;
     else if (at != t && dh != 0.0)
-        view.part = WALL_VERTEX; /* the tip of a cone; the middle of a disc is none */
+        part = WALL_VERTEX; /* the tip of a cone; the middle of a disc is none */
     else if (radius > 0.0 && distance > 0.0)
-        view.curvature = beyond / distance / radius;
-    return view;
+        curvature = beyond / distance / radius;
+    wall_view_put(out, v3_axpy(v3_scale(up, s->axis), beyond, outwards), curvature, part);
 }
 
 enum { AROUND = 96 };
@@ -281,18 +286,20 @@ int wall_tube_elements(const void *shape)
     return ((const struct tube *)shape)->n;
 }
 
-struct wall_view wall_tube_view(const void *shape, int element, vec3 x)
+void wall_tube_view(const void *shape, int element, const vec3 *x, struct wall_view *out)
 {
     const struct tube *const t = shape;
     const struct wall_strip *const s = &t->strip[element];
-    if (!t->endless)
-        return wall_strip_view(s, x);
-    const vec3 rel = v3_sub(x, s->foot);
+    if (!t->endless) {
+        wall_strip_view(s, x, out);
+        return;
+    }
+    const vec3 rel = v3(x->x - s->foot.x, x->y - s->foot.y, x->z - s->foot.z);
     const vec3 radial = v3_axpy(rel, -v3_dot(rel, s->axis), s->axis);
     const double r = v3_norm(radial), beyond = r - s->r0;
-    const vec3 out = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
-    return (struct wall_view){.away = v3_scale(beyond, out),
-                              .curvature = (beyond > 0.0 ? 1.0 : -1.0) / s->r0};
+    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    wall_view_put(out, v3_scale(beyond, outwards), (beyond > 0.0 ? 1.0 : -1.0) / s->r0,
+                  WALL_FACE);
 }
 
 bool wall_tube_behind(const void *shape, vec3 x)

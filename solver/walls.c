@@ -183,17 +183,25 @@ static inline vec3 into_frame(const struct sim *s, const struct wall *w, int loc
     return x;
 }
 
-struct wall_seen wall_see(const struct sim *s, int element, vec3 x)
+void wall_look(const struct sim *s, int element, const vec3 *x, struct wall_seen *out)
 {
     const int k = s->walls.wall_of[element], local = element - s->walls.first[k];
     const struct wall *const w = &s->walls.wall[k];
-    const vec3 in = into_frame(s, w, local, x);
-    struct wall_seen seen = {.view = w->kind->view(w->shape, local, in),
-                             .arm = v3_sub(in, w->motion.pivot)};
+    const vec3 in = into_frame(s, w, local, v3(x->x, x->y, x->z));
+    w->kind->view(w->shape, local, &in, &out->view);
+    out->arm.x = in.x - w->motion.pivot.x;
+    out->arm.y = in.y - w->motion.pivot.y;
+    out->arm.z = in.z - w->motion.pivot.z;
     if (w->pose.turned) {
-        seen.view.away = pose_turn(&w->pose, seen.view.away);
-        seen.arm = pose_turn(&w->pose, seen.arm);
+        out->view.away = pose_turn(&w->pose, out->view.away);
+        out->arm = pose_turn(&w->pose, out->arm);
     }
+}
+
+struct wall_seen wall_see(const struct sim *s, int element, vec3 x)
+{
+    struct wall_seen seen;
+    wall_look(s, element, &x, &seen);
     return seen;
 }
 
@@ -218,8 +226,9 @@ static void near_of_wall(const struct wall *w, vec3 x, double reach, struct foun
         return;
     }
     for (int e = 0; e < w->elements; e++) {
-        const vec3 d = w->kind->view(w->shape, e, x).away;
-        if (v3_dot(d, d) < reach * reach)
+        struct wall_view view;
+        w->kind->view(w->shape, e, &x, &view);
+        if (v3_dot(view.away, view.away) < reach * reach)
             found_add(out, e);
     }
 }

@@ -62,6 +62,7 @@ struct wall_seen {
     vec3 arm; /* m, from the pivot of the wall to the point */
 };
 struct wall_seen wall_see(const struct sim *s, int element, vec3 x);
+void wall_look(const struct sim *s, int element, const vec3 *x, struct wall_seen *out);
 /* Corners of a flat element, m, as seen from x; returns how many, 0 for other elements. */
 int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4]);
 

@@ -51,11 +51,11 @@ static vec3 corner(const struct box *b, int side, vec3 edge[2])
     return v3(at[0], at[1], at[2]);
 }
 
-static struct wall_view view(const void *shape, int element, vec3 x)
+static void view(const void *shape, int element, const vec3 *x, struct wall_view *out)
 {
     vec3 edge[2];
     const vec3 at = corner(shape, element, edge);
-    return wall_rectangle_view(at, edge[0], edge[1], x);
+    wall_rectangle_view(&at, &edge[0], &edge[1], x, out);
 }
 
 static bool behind(const void *shape, vec3 x)

@@ -57,9 +57,9 @@ static int elements(const void *shape)
     return ((const struct mesh *)shape)->n;
 }
 
-static struct wall_view view(const void *shape, int element, vec3 x)
+static void view(const void *shape, int element, const vec3 *x, struct wall_view *out)
 {
-    return triangle_view(&((const struct mesh *)shape)->triangle[element], x);
+    triangle_view(&((const struct mesh *)shape)->triangle[element], x, out);
 }
 
 static void near(const void *shape, vec3 x, double reach, struct found *out)

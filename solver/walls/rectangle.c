@@ -28,11 +28,11 @@ static void *read(struct scene *scene, const char *name, const struct domain *d)
     return p;
 }
 
-static struct wall_view view(const void *shape, int element, vec3 x)
+static void view(const void *shape, int element, const vec3 *x, struct wall_view *out)
 {
     const struct plate *const p = shape;
     (void)element;
-    return wall_rectangle_view(p->corner, p->edge[0], p->edge[1], x);
+    wall_rectangle_view(&p->corner, &p->edge[0], &p->edge[1], x, out);
 }
 
 static void bounds(const void *shape, vec3 *low, vec3 *high)

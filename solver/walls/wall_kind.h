@@ -34,6 +34,16 @@ struct wall_view {
     enum wall_part part; /* on which the nearest point lies */
 };
 
+static inline void wall_view_put(struct wall_view *v, vec3 away, double curvature,
+                                 enum wall_part part)
+{
+    v->away.x = away.x;
+    v->away.y = away.y;
+    v->away.z = away.z;
+    v->curvature = curvature;
+    v->part = part;
+}
+
 /* Takes the triangles of a picture, m; surfaces without end are to end at low and high. */
 struct wall_canvas {
     void (*triangle)(struct wall_canvas *c, vec3 a, vec3 b, vec3 p);
@@ -47,7 +57,9 @@ struct wall_kind {
     void *(*read)(struct scene *scene, const char *name, const struct domain *d);
     void (*free)(void *shape);
     int (*elements)(const void *shape);
-    struct wall_view (*view)(const void *shape, int element, vec3 x);
+    /* By address, since the loop over contacts asks it most: structs that are handed over by value
+     * are written number by number and read back as vectors, which waits for the memory. */
+    void (*view)(const void *shape, int element, const vec3 *x, struct wall_view *out);
     /* Adds the elements whose distance from x is less than reach, in a fixed order. NULL: there
      * are few, all are looked at. */
     void (*near)(const void *shape, vec3 x, double reach, struct found *out);
@@ -81,7 +93,7 @@ struct wall_flat {
     vec3 point, normal; /* m; unit */
 };
 int wall_single(const void *shape); /* one element */
-struct wall_view wall_flat_view(const void *flat, int element, vec3 x);
+void wall_flat_view(const void *flat, int element, const vec3 *x, struct wall_view *out);
 void wall_flat_near(const void *flat, vec3 x, double reach, struct found *out);
 bool wall_flat_behind(const void *flat, vec3 x);
 void wall_flat_bounds(const void *flat, vec3 *low, vec3 *high);
@@ -89,7 +101,8 @@ double wall_flat_sweep(const void *flat, vec3 point, vec3 axis);
 void wall_flat_draw(const void *flat, struct wall_canvas *c);
 
 /* Nearest point of the rectangle origin + u e1 + v e2, 0 <= u, v <= 1 (e1, e2 at right angles). */
-struct wall_view wall_rectangle_view(vec3 origin, vec3 e1, vec3 e2, vec3 x);
+void wall_rectangle_view(const vec3 *origin, const vec3 *e1, const vec3 *e2, const vec3 *x,
+                         struct wall_view *out);
 
 /* Of the strip of revolution through (h0, r0) and (h1, r1) in heights along the axis from `foot`
  * and radii: a disc, tube or frustum. */
@@ -97,7 +110,7 @@ struct wall_strip {
     vec3 foot, axis;
     double h0, r0, h1, r1;
 };
-struct wall_view wall_strip_view(const struct wall_strip *s, vec3 x);
+void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out);
 void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c);
 void wall_strip_bounds(const struct wall_strip *s, vec3 *low, vec3 *high);
 double wall_strip_sweep(const struct wall_strip *s, vec3 point, vec3 axis);

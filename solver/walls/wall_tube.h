@@ -8,7 +8,7 @@
 void *wall_tube_read(struct scene *scene, const char *name, const struct domain *d, double foot,
                      double end, bool endless);
 int wall_tube_elements(const void *shape);
-struct wall_view wall_tube_view(const void *shape, int element, vec3 x);
+void wall_tube_view(const void *shape, int element, const vec3 *x, struct wall_view *out);
 bool wall_tube_behind(const void *shape, vec3 x);
 void wall_tube_bounds(const void *shape, vec3 *low, vec3 *high);
 double wall_tube_sweep(const void *shape, vec3 point, vec3 axis);
