@@ -292,7 +292,10 @@ static void prepare(struct sim *s, struct fill_task *t, int how)
     if (how == UNIT_CELL || how == FROM_FILE)
         return;
     t->walls = walls_named(s) && !s->grains.species[t->species].frozen ? s : NULL;
-    t->room = room_volume(t->walls, &t->region, ROOM_POINTS);
+    t->room =
+        how == POINT || how == LATTICE
+            ? region_volume(&t->region)
+            : room_volume(t->walls, &t->region, key[0] == 'p' ? ROOM_POINTS : HEIGHT_POINTS);
     draw_sizes(s, t, key);
     if (how == LATTICE)
         fits(t, key, LATTICE_MOST, "can lie on a lattice");

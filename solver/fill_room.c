@@ -12,7 +12,11 @@ enum { TRIES = 4000 };
 
 double room_volume(const struct sim *walls, const struct fill_region *r, int points)
 {
-    if (!walls)
+    bool hide = false; /* some wall takes room */
+    for (int k = 0; walls && k < walls->walls.n; k++)
+        hide = hide ||
+               (walls->walls.wall[k].kind != &wall_side && walls->walls.wall[k].kind->behind);
+    if (!hide)
         return region_volume(r);
     gsl_qrng *const q = gsl_qrng_alloc(gsl_qrng_niederreiter_2, 3);
     long room = 0;
@@ -21,7 +25,7 @@ double room_volume(const struct sim *walls, const struct fill_region *r, int poi
         gsl_qrng_get(q, u);
         for (int a = 0; a < 3; a++)
             u[a] = r->from[a] + u[a] * (r->to[a] - r->from[a]);
-        room += walls_gap(walls, v3(u[0], u[1], u[2]), 0.0, 0.0, NULL) >= 0.0;
+        room += !walls_hide(walls, v3(u[0], u[1], u[2]));
     }
     gsl_qrng_free(q);
     return region_volume(r) * (double)room / points;

@@ -360,6 +360,14 @@ vec3 walls_bear(const struct sim *s, vec3 x, double radius, vec3 force)
     return force;
 }
 
+bool walls_hide(const struct sim *s, vec3 x)
+{
+    for (int k = 0; k < s->walls.n; k++)
+        if (s->walls.wall[k].kind != &wall_side && is_behind(s, &s->walls.wall[k], x))
+            return true;
+    return false;
+}
+
 bool walls_named(const struct sim *s)
 {
     for (int k = 0; k < s->walls.n; k++)

@@ -81,8 +81,9 @@ double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *w
 double walls_escape(const struct sim *s, vec3 x, double radius, vec3 *way);
 /* What is left of a force on a sphere at rest on walls: no part of it presses into one. */
 vec3 walls_bear(const struct sim *s, vec3 x, double radius, vec3 force);
-/* Whether the scene has walls besides the sides of the box. */
+/* Whether the scene has walls besides the sides of the box; whether x is behind any of these. */
 bool walls_named(const struct sim *s);
+bool walls_hide(const struct sim *s, vec3 x);
 
 /* Turns the sum of the forces of the last steps into an impulse: each step takes half of the force
  * at either end, as the kicks do. `now` is the force at the last of them. */
