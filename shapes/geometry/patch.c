@@ -32,22 +32,39 @@ static void add_corner(struct corners *c, int id, double gap, vec3 on_b)
     c->on_b[c->n++] = on_b;
 }
 
-/* Those no more than `window` behind the furthest along `out`. */
-static void find_rim(const struct patch_body *b, vec3 out, double window, bool edges,
+/* Which corners of a body may be the nearest for some slope: not those that rise from the furthest
+ * along `out` by more than `tilt` times how far they are aside from the nearest point `at`. Edges: by a
+ * height alone. */
+struct reach {
+    vec3 out, at;
+    double tilt, window, size;
+    bool met; /* the nearest points are one line across both bodies */
+};
+
+static bool may_lead(const struct reach *w, vec3 x, double drop)
+{
+    const vec3 d = v3_sub(x, w->at);
+    const double up = v3_dot(w->out, d), aside = v3_dot(d, d) - up * up;
+    return drop <= INSIDE * w->size || drop * drop < w->tilt * w->tilt * aside;
+}
+
+static void find_rim(const struct patch_body *b, const struct reach *w, bool edges,
                      struct rim *r)
 {
     const struct polyhedron *const p = b->p;
-    double h[POLYHEDRON_MOST], most = -(double)INFINITY;
+    double h[POLYHEDRON_MOST], most = -1e300;
     for (int k = 0; k < p->n_vertices; k++) {
-        h[k] = v3_dot(out, points_at(&b->at, k));
+        h[k] = v3_dot(w->out, points_at(&b->at, k));
         most = h[k] > most ? h[k] : most;
     }
     r->n = r->n_edges = 0;
     for (int k = 0; k < p->n_vertices && r->n < PATCH_NEAR; k++)
-        if (h[k] >= most - window)
+        if (h[k] >= most - w->window &&
+            (!w->met || may_lead(w, points_at(&b->at, k), most - h[k])))
             r->vertex[r->n++] = k;
+    const double low = most - 2.0 * w->window;
     for (int e = 0; e < p->n_edges && edges && r->n_edges < PATCH_NEAR; e++)
-        if (h[p->edge[e][0]] >= most - 2.0 * window && h[p->edge[e][1]] >= most - 2.0 * window)
+        if (h[p->edge[e][0]] >= low && h[p->edge[e][1]] >= low)
             r->edge[r->n_edges++] = e;
 }
 
@@ -289,21 +306,24 @@ int patch_find(const struct patch_body *a, const struct patch_body *b, const str
                double tilt, int most, struct patch_point *out)
 {
     const double size = fmin(a->scale * a->p->radius, b->scale * b->p->radius);
-    const double window = 2.0 * tilt * size;
     const vec3 n = gap->normal;
+    const struct reach below = {v3_scale(-1.0, n), gap->on_b, tilt,
+                                2.0 * tilt * size, size,      gap->distance > 0.0},
+                       above = {n,    gap->on_b,          tilt, 2.0 * tilt * size,
+                                size, gap->distance > 0.0};
     struct rim ra, rb;
     struct corners c;
     if (!(size > 0.0)) /* one of them is a ball */
         return one_point(patch_ids(a->p, b->p) - 1, gap, gap->on_b, out);
-    find_rim(a, v3_scale(-1.0, n), window, false, &ra);
+    find_rim(a, &below, false, &ra);
     if (ra.n == 1)
         return one_point(ra.vertex[0], gap,
                          v3_axpy(points_at(&a->at, ra.vertex[0]), -gap->distance, n), out);
-    find_rim(b, n, window, true, &rb);
+    find_rim(b, &above, true, &rb);
     if (rb.n == 1)
         return one_point(a->p->n_vertices + rb.vertex[0], gap, points_at(&b->at, rb.vertex[0]),
                          out);
-    find_rim(a, v3_scale(-1.0, n), window, true, &ra);
+    find_rim(a, &below, true, &ra);
     c.n = 0;
     add_vertices(&c, a, &ra, b, n, false);
     add_vertices(&c, b, &rb, a, v3_scale(-1.0, n), true);
