@@ -54,6 +54,14 @@ for kind in double float; do
 done
 echo "ns of a grain and step; growth over 10,000 grains; speed-up over one thread"
 
+# What identical bits cost, and other designs, on the same bed.
+make -s build/release/bench/designs
+echo
+for j in $threads; do
+    OMP_NUM_THREADS=$j build/release/bench/designs bench/dem.ini "grains g.fill=file" \
+        "grains g.file=$(bed text 10000)" output.bed=none
+done
+
 # Sizes: a bed each, settled once; then the same steps on it, with the time of a contact in each.
 echo
 case_of() { # RATIO: least, largest diameter in mm, the steps of the grains in us, steps timed, MPa

@@ -65,37 +65,48 @@ void contact_init(struct scene *s, const struct materials *m)
     }
 }
 
+/* In three loops, since a processor works on the contacts of a short loop side by side, and of a
+ * long one after each other. */
 void contact_forces(struct touch *t, real (*history)[TOUCH])
 {
-    _Alignas(64) real k[PARAMETERS][TOUCH];
+    _Alignas(64) real k[PARAMETERS][TOUCH], a[TOUCH], damping[TOUCH];
     pairs_spread(t, &table[0][0], PARAMETERS, k);
     real *const restrict hx = history[0], *const restrict hy = history[1];
     real *const restrict hz = history[2], *const restrict a_old = history[3];
     const real dt = (real)t->dt;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const struct arrow n = touch_normal(t, c);
-        const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
         const real depth = t->depth[c] > 0.0 ? t->depth[c] : 0.0;
-        const real a = square_root(t->r_eff[c] * depth),
-                   damping = t->start[c] * square_root(a * t->m_eff[c]);
-        const real kn = k[HERTZ][c] * a, kt = k[SHEAR][c] * a;
-        const real normal = kn * depth - k[CN][c] * damping * t->vn[c];
-        const real fn = normal > 0.0 ? normal : 0.0;
-        const bool unloads = a < a_old[c]; /* k_t falls with it */
-        const struct arrow held = spring_turn((struct arrow){hx[c], hy[c], hz[c]}, n,
-                                              unloads ? a : 1.0, unloads ? a_old[c] : 1.0);
-        const struct spring f = spring_cut(arrow_axpy(held, -kt * dt, v),
-                                           arrow_scale(-k[CT][c] * damping, v), k[MU][c] * fn);
+        a[c] = square_root(t->r_eff[c] * depth);
+        damping[c] = t->start[c] * square_root(a[c] * t->m_eff[c]);
+        t->kn[c] = k[HERTZ][c] * a[c];
+        const real normal = t->kn[c] * depth - k[CN][c] * damping[c] * t->vn[c];
+        t->fn[c] = normal > 0.0 ? normal : 0.0;
+    }
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const bool unloads = a[c] < a_old[c]; /* k_t falls with it */
+        const struct arrow held =
+            spring_turn((struct arrow){hx[c], hy[c], hz[c]}, touch_normal(t, c),
+                        unloads ? a[c] : 1.0, unloads ? a_old[c] : 1.0);
+        hx[c] = held.x;
+        hy[c] = held.y;
+        hz[c] = held.z;
+        a_old[c] = a[c];
+    }
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const struct arrow n = touch_normal(t, c), held = {hx[c], hy[c], hz[c]};
+        const struct arrow v = arrow_in_plane(touch_velocity(t, c), n);
+        const struct spring f =
+            spring_cut(arrow_axpy(held, -k[SHEAR][c] * a[c] * dt, v),
+                       arrow_scale(-k[CT][c] * damping[c], v), k[MU][c] * t->fn[c]);
         hx[c] = f.held.x;
         hy[c] = f.held.y;
         hz[c] = f.held.z;
-        a_old[c] = a;
-        t->fx[c] = fn * n.x + f.total.x;
-        t->fy[c] = fn * n.y + f.total.y;
-        t->fz[c] = fn * n.z + f.total.z;
-        t->fn[c] = fn;
-        t->kn[c] = kn;
+        t->fx[c] = t->fn[c] * n.x + f.total.x;
+        t->fy[c] = t->fn[c] * n.y + f.total.y;
+        t->fz[c] = t->fn[c] * n.z + f.total.z;
     }
 }
 

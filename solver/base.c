@@ -1,10 +1,13 @@
 /* base.c - memory, the end of a bad run, clocks, reproducible sums. */
+#define _DEFAULT_SOURCE /* madvise */
 #include "base.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 
 void (*die_hook)(int code, const char *message);
@@ -27,15 +30,23 @@ _Noreturn void die(int code, const char *format, ...)
     exit(first);
 }
 
+/* Large arrays lie on huge pages where the system has them: what reads at random in an array of many
+ * small pages waits for their addresses. */
+enum { LINE = 64, HUGE_PAGE = 1 << 21 };
+
 void *xalloc(size_t count, size_t size)
 {
-    enum { LINE = 64 };
     if (size > 0 && count > ((size_t)-1 - LINE) / size)
         die(EXIT_WRITE, "out of memory: %zu times %zu bytes", count, size);
     const size_t bytes = (count * size + LINE) / LINE * LINE;
+    const bool huge = bytes >= 2 * (size_t)HUGE_PAGE;
     void *p = NULL;
-    if (posix_memalign(&p, LINE, bytes) != 0)
+    if (posix_memalign(&p, huge ? HUGE_PAGE : LINE, bytes) != 0)
         die(EXIT_WRITE, "out of memory: %zu bytes", bytes);
+#ifdef MADV_HUGEPAGE
+    if (huge)
+        madvise(p, bytes, MADV_HUGEPAGE); /* advice: nothing is lost where it is not taken */
+#endif
     memset(p, 0, bytes);
     return p;
 }

@@ -2,6 +2,7 @@
 #include "contact_block.h"
 
 #include <string.h>
+#include "../contact/bond/bond.h"
 #include "contact_laws.h"
 #include "contact_loop.h"
 #include "contact_path.h"
@@ -10,24 +11,16 @@
 #include "sim.h"
 #include "turn.h"
 
-/* Takes in slots; lanes without a contact of their own repeat the last one: numbers that laws
- * can take. */
-static void take(struct block *b, const struct slots *l, const int *slot, int count)
+/* Takes in a block of the pack. */
+static void take(struct block *b, struct pack_block *p, int count, const int *slot, bool asked)
 {
-    const int *const restrict owner = l->owner, *const restrict other = l->other;
-    int n = count;
     b->n = count;
-    b->walls = false;
-    memcpy(b->slot, slot, (size_t)count * sizeof *slot);
-    for (; n % TOUCH_LANES != 0; n++)
-        b->slot[n] = slot[count - 1];
-    b->c.n = b->t.n = n;
-#pragma omp simd
-    for (int c = 0; c < n; c++) {
-        const int i = owner[b->slot[c]], j = other[b->slot[c]];
-        b->c.i[c] = i;
-        b->c.j[c] = j;
-    }
+    b->c.n = b->t.n = (count + TOUCH_LANES - 1) / TOUCH_LANES * TOUCH_LANES;
+    b->kept = p->memory;
+    memcpy(b->c.i, p->i, sizeof b->c.i);
+    memcpy(b->c.j, p->j, sizeof b->c.j);
+    if (asked || bond_history > 0)
+        memcpy(b->slot, slot, (size_t)count * sizeof *slot);
 }
 
 /* The numbers of eight bodies from one of their halves on: number k of body c in out[k][c]. */
@@ -72,29 +65,95 @@ static void gather(const struct sim *s, struct block *b)
     }
 }
 
-static void pair_up(const struct sim *s, struct block *b)
+/* What is the same for every block of a run. */
+static void open_pairs(const struct sim *s, struct block *b, const struct target *to)
+{
+    b->walls = false;
+    b->t.dt = s->run.dt;
+    b->t.time = to->time;
+    memset(b->t.pair, 0, sizeof b->t.pair);
+    for (int c = 0; c < TOUCH; c++)
+        b->c.wall[c] = NULL;
+}
+
+static void pair_materials(const struct sim *s, struct block *b)
+{
+    if (s->grains.n_materials > 1)
+        for (int c = 0; c < b->t.n; c++)
+            b->t.pair[c] = (int)s->bodies[b->c.i[c]].full[3] * s->grains.n_materials +
+                           (int)s->bodies[b->c.j[c]].full[3];
+}
+
+/* The nearest image of the distances. */
+static void nearest(const struct sim *s, struct block *b)
 {
     const struct frame *const f = &s->frame;
     const real sx = f->scale[0], sy = f->scale[1], sz = f->scale[2];
     const real lx = f->image[0], ly = f->image[1], lz = f->image[2];
     const real ix = f->inv_image[0], iy = f->inv_image[1], iz = f->inv_image[2];
-    struct touch *const t = &b->t;
-    gather(s, b);
 #pragma omp simd
-    for (int c = 0; c < t->n; c++) {
+    for (int c = 0; c < b->t.n; c++) {
         const real x = b->c.dx[c] * sx, y = b->c.dy[c] * sy, z = b->c.dz[c] * sz;
         b->c.dx[c] = fma(-lx, rint(x * ix), x);
         b->c.dy[c] = fma(-ly, rint(y * iy), y);
         b->c.dz[c] = fma(-lz, rint(z * iz), z);
     }
-    if (s->grains.n_materials == 1)
-        memset(t->pair, 0, sizeof t->pair);
-    else
-        for (int c = 0; c < t->n; c++)
-            t->pair[c] = (int)s->bodies[b->c.i[c]].full[3] * s->grains.n_materials +
-                         (int)s->bodies[b->c.j[c]].full[3];
+}
+
+/* Dashpots of contacts that began within the step. */
+static void starts_pairs(struct touch *t, const real *began)
+{
     for (int c = 0; c < t->n; c++)
-        b->c.wall[c] = NULL;
+        if (began[c] <= (real)0.0 && t->depth[c] > (real)0.0)
+            t->start[c] = laws_first_part(t, c);
+}
+
+/* Two spheres [shapes/sphere.c], their reduced mass and radius, their velocities at the contact point:
+ * the levers lie along the normal, so one product serves both spins. Notes the overlaps for the
+ * next step. */
+static void meet(const struct sim *s, struct block *b, real *restrict before, struct report *r)
+{
+    struct touch *const t = &b->t;
+    const real most = (real)s->run.overlap_max;
+    _Alignas(64) real began[TOUCH];
+    int deep = 0, begun = 0;
+#pragma omp simd reduction(| : deep, begun)
+    for (int c = 0; c < t->n; c++) {
+        const real x = b->c.dx[c], y = b->c.dy[c], z = b->c.dz[c];
+        const real ri = t->r_i[c], rj = t->r_j[c], sum = ri + rj, m = b->inv_m[c];
+        const real square = fma(x, x, fma(y, y, z * z));
+        const real inverse = inverse_root(square), half = 0.5 * (sum - square * inverse);
+        const real nx = x * inverse, ny = y * inverse, nz = z * inverse;
+        const real depth = 2.0 * half, arm_i = ri - half, arm_j = rj - half;
+        const real px = b->px[c], py = b->py[c], pz = b->pz[c];
+        const real qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
+        const real wx = fma(arm_i, px, arm_j * qx), wy = fma(arm_i, py, arm_j * qy);
+        const real wz = fma(arm_i, pz, arm_j * qz);
+        const real over = 1.0 / (sum * m);
+        t->m_eff[c] = sum * over;
+        t->r_eff[c] = ri * rj * m * over;
+        b->arm_i[c] = arm_i;
+        b->arm_j[c] = arm_j;
+        t->nx[c] = nx;
+        t->ny[c] = ny;
+        t->nz[c] = nz;
+        t->vx[c] = fma(wz, ny, fma(-wy, nz, t->vx[c]));
+        t->vy[c] = fma(wx, nz, fma(-wz, nx, t->vy[c]));
+        t->vz[c] = fma(wy, nx, fma(-wx, ny, t->vz[c]));
+        t->wx[c] = px - qx;
+        t->wy[c] = py - qy;
+        t->wz[c] = pz - qz;
+        t->vn[c] = fma(nx, b->vx[c], fma(ny, b->vy[c], nz * b->vz[c]));
+        t->start[c] = 1.0;
+        t->depth[c] = depth;
+        deep |= depth > most * (ri < rj ? ri : rj);
+        begun |= (before[c] <= (real)0.0) & (depth > (real)0.0);
+        began[c] = before[c];
+        before[c] = depth;
+    }
+    r->too_deep = r->too_deep || deep;
+    if (begun)
+        starts_pairs(t, began);
 }
 
 /* Lanes without a wall contact of their own repeat the last one. */
@@ -170,15 +229,20 @@ static void guard(const struct block *b, real most, struct report *r)
     r->too_deep = r->too_deep || deep;
 }
 
+static void mark(const struct block *b, struct slots *l, real reach)
+{
+    for (int c = 0; c < b->n; c++)
+        l->live[b->slot[c]] =
+            (unsigned char)((b->t.depth[c] > -reach) + (b->t.depth[c] > (real)0.0));
+}
+
 /* Keeps what is to be remembered of each contact, nothing where there is none. */
 static void keep(const struct sim *s, struct block *b, struct slots *l)
 {
     const real reach = (real)s->neighbours.reach;
     const int rows = s->neighbours.rows;
     struct touch *const t = &b->t;
-    for (int c = 0; c < b->n; c++)
-        l->live[b->slot[c]] =
-            (unsigned char)((t->depth[c] > -reach) + (t->depth[c] > (real)0.0));
+    mark(b, l, reach);
     for (int k = 0; k < rows; k += 4)
         for (int c = 0; c < t->n; c += 8) {
             const real8 gap = -take8(&t->depth[c]);
@@ -199,10 +263,12 @@ static void keep(const struct sim *s, struct block *b, struct slots *l)
         }
 }
 
-/* Counts, energy, the largest overlap; the forces of single contacts where someone looks. */
-static void report_all(const struct sim *s, struct block *b, struct report *r)
+/* Counts, energy, the largest overlap; the forces of single contacts where someone looks, which
+ * goes by the marks of the slots. */
+static void report_all(const struct sim *s, struct block *b, struct slots *l, struct report *r)
 {
     const double reach = s->neighbours.reach;
+    mark(b, l, (real)reach);
     r->energy += laws_energy(b, reach, NULL);
     for (int c = 0; c < b->n; c++) {
         const double depth = (double)b->t.depth[c], ri = (double)b->t.r_i[c];
@@ -229,23 +295,72 @@ static void work(struct sim *s, struct block *b, struct slots *l, const struct t
     laws_pack(b);
     guard(b, (real)s->run.overlap_max, to->report);
     if (to->asked)
-        report_all(s, b, to->report);
+        report_all(s, b, l, to->report);
+}
+
+/* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
+ * an addition to what was just added to must wait for it. */
+static void add(const struct block *b, const int *restrict to, const struct target *target)
+{
+    enum { STRIDE = 8 };
+    struct sums *const own = target->sums - target->first, *const all = target->sums;
+    for (int start = 0; start < STRIDE; start++)
+        for (int c = start; c < b->n; c += STRIDE) {
+            own[b->c.i[c]].both += laws_wide(b->on[0][c]);
+            all[to[c]].both += laws_wide(b->on[1][c]);
+        }
+}
+
+/* Levers, where someone asks for them. */
+static void levers_pairs(struct block *b)
+{
+    for (int c = 0; c < b->t.n; c++) {
+        b->l.ix[c] = -b->arm_i[c] * b->t.nx[c];
+        b->l.iy[c] = -b->arm_i[c] * b->t.ny[c];
+        b->l.iz[c] = -b->arm_i[c] * b->t.nz[c];
+    }
+}
+
+/* Where no law reaches, nothing is remembered. */
+static void forget(struct block *b, int rows, real reach)
+{
+    for (int k = 0; k < rows; k++) {
+        real *const restrict h = b->kept[k];
+#pragma omp simd
+        for (int c = 0; c < b->t.n; c++)
+            h[c] = b->t.depth[c] > -reach ? h[c] : (real)0.0;
+    }
 }
 
 static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
                        const struct target *to)
 {
     struct slots *const l = &s->neighbours.pairs;
+    const struct pack *const pack = &s->contacts->pack[to->first / RUN];
+    const int rows = s->neighbours.rows;
+    open_pairs(s, b, to);
     for (int from = 0; from < count; from += TOUCH) {
-        take(b, l, slot + from, count - from < TOUCH ? count - from : TOUCH);
-        pair_up(s, b);
-        laws_reduce(b);
-        work(s, b, l, to);
-        laws_add(b, s->neighbours.to, to);
+        struct pack_block *const p = pack_block(pack, from / TOUCH, rows);
+        take(b, p, count - from < TOUCH ? count - from : TOUCH, slot + from, to->asked);
+        gather(s, b);
+        nearest(s, b);
+        pair_materials(s, b);
+        meet(s, b, p->depth, to->report);
+        laws_apply(s, b);
+        if (bond_history > 0) {
+            levers_pairs(b);
+            laws_note_broken(s, b, l, to->time);
+        }
+        forget(b, rows, (real)s->neighbours.reach);
+        laws_pack_line(b);
+        add(b, p->to, to);
+        if (to->asked)
+            report_all(s, b, l, to->report);
         if (s->grains.n_frozen > 0)
             laws_add_skeleton(&s->grains, b, to->report);
     }
     b->n = 0;
+    b->kept = NULL;
 }
 
 void block_work_walls(struct sim *s, struct block *b, const struct target *to)
@@ -277,4 +392,6 @@ const struct contact_path contact_spheres = {.rows = rows,
                                              .walls = walls_enter,
                                              .view = contact_view_slots,
                                              .seen_size = seen_size,
-                                             .stop = contact_stop_spheres};
+                                             .stop = contact_stop_spheres,
+                                             .take = pack_fill,
+                                             .put_back = pack_put_back};

@@ -59,6 +59,9 @@ struct block {
     real qx[TOUCH], qy[TOUCH], qz[TOUCH]; /* rad/s, spin of j */
     real4 row[TOUCH];                     /* memory on its way in and out */
     real on[2][TOUCH][8];                 /* force and torque on i, on j, on their way out */
+    /* of the spheres of contact_block.c */
+    real (*kept)[TOUCH]; /* what the laws remember, where it is kept; NULL: history */
+    real arm_i[TOUCH], arm_j[TOUCH]; /* m, from the centres along the line to the point */
     /* of the points of contact_points.c */
     real *memory[TOUCH]; /* rows of the laws */
     bool was[TOUCH];     /* it overlapped at the step before */

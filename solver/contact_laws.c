@@ -45,6 +45,24 @@ void laws_velocities(struct block *b)
     }
 }
 
+/* With A = 1/I of a grain and B = A m r^2, its inertia about the contact point is (1 + B)/A; of both
+ * bodies together with one division; A = 0 of a frozen grain and of a wall. */
+static void inertia(const struct grains *g, struct block *b)
+{
+    struct touch *const t = &b->t;
+    double against[TOUCH];
+    for (int c = 0; c < t->n; c++)
+        against[c] = b->c.wall[c] ? 0.0 : g->inv_inertia[b->c.j[c]];
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const double ri = (double)t->r_i[c], rj = (double)t->r_j[c];
+        const double ai = g->inv_inertia[b->c.i[c]], aj = against[c];
+        const double bi = 1.0 + ai * g->mass[b->c.i[c]] * ri * ri;
+        const double bj = 1.0 + aj * g->mass[b->c.j[c]] * rj * rj;
+        t->inertia[c] = (real)(bi * bj / (ai * bj + aj * bi));
+    }
+}
+
 /* What laws ask for only some of the time. */
 static void extras(const struct grains *g, struct block *b, unsigned asked)
 {
@@ -56,17 +74,7 @@ static void extras(const struct grains *g, struct block *b, unsigned asked)
             t->sz[c] = b->pz[c];
         }
     if (asked & TOUCH_INERTIA)
-        for (int c = 0; c < t->n; c++) {
-            const int i = b->c.i[c], j = b->c.j[c];
-            const bool wall = b->c.wall[c] != NULL;
-            const double ri = (double)t->r_i[c], rj = (double)t->r_j[c];
-            double inverse = 0.0;
-            if (g->inv_mass[i] > 0.0)
-                inverse += 1.0 / (1.0 / g->inv_inertia[i] + g->mass[i] * ri * ri);
-            if (!wall && g->inv_mass[j] > 0.0)
-                inverse += 1.0 / (1.0 / g->inv_inertia[j] + g->mass[j] * rj * rj);
-            t->inertia[c] = (real)(1.0 / inverse);
-        }
+        inertia(g, b);
     if (asked & TOUCH_COUPLES) {
         memset(t->mx, 0, sizeof t->mx);
         memset(t->my, 0, sizeof t->my);
@@ -76,7 +84,7 @@ static void extras(const struct grains *g, struct block *b, unsigned asked)
 
 void laws_apply(struct sim *s, struct block *b)
 {
-    real(*h)[TOUCH] = b->history;
+    real(*h)[TOUCH] = b->kept ? b->kept : b->history;
     extras(&s->grains, b, needs());
     if (bond_history > 0)
         memset(b->t.broke, 0, sizeof b->t.broke);
@@ -94,7 +102,7 @@ void laws_apply(struct sim *s, struct block *b)
 double laws_energy(struct block *b, double reach, const real *share)
 {
     double sum = 0.0;
-    real(*h)[TOUCH] = b->history;
+    real(*h)[TOUCH] = b->kept ? b->kept : b->history;
     contact_energy(&b->t, h);
     h += contact_history;
     cohesion_energy(&b->t, h);
@@ -154,6 +162,39 @@ void laws_pack(struct block *b)
         pack(b, true);
     else
         pack(b, false);
+}
+
+/* The levers are -arm_i and arm_j times the normal: one product gives both torques. */
+static inline __attribute__((always_inline)) void pack_line(struct block *b, bool couples)
+{
+    const struct touch *const t = &b->t;
+    const real8 zero = {0.0};
+    for (int c = 0; c < t->n; c += 8) {
+        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
+        const real8 nx = take8(&t->nx[c]), ny = take8(&t->ny[c]), nz = take8(&t->nz[c]);
+        const real8 mx = couples ? take8(&t->mx[c]) : zero,
+                    my = couples ? take8(&t->my[c]) : zero;
+        const real8 mz = couples ? take8(&t->mz[c]) : zero;
+        const real8 x = nz * fy - ny * fz, y = nx * fz - nz * fx, z = ny * fx - nx * fy;
+        const real8 arm_i = take8(&b->arm_i[c]), arm_j = take8(&b->arm_j[c]);
+        real8 i[8] = {fx, fy, fz, zero, arm_i * x + mx, arm_i * y + my, arm_i * z + mz, zero};
+        real8 j[8] = {-fx, -fy, -fz, zero, arm_j * x - mx, arm_j * y - my, arm_j * z - mz,
+                      zero};
+        turn8(i);
+        turn8(j);
+        for (int k = 0; k < 8; k++) {
+            put8(b->on[0][c + k], i[k]);
+            put8(b->on[1][c + k], j[k]);
+        }
+    }
+}
+
+void laws_pack_line(struct block *b)
+{
+    if (needs() & TOUCH_COUPLES)
+        pack_line(b, true);
+    else
+        pack_line(b, false);
 }
 
 /* Notes the bonds that broke; put in order where they are read. */

@@ -32,6 +32,8 @@ void laws_apply(struct sim *s, struct block *b);
 void laws_note_broken(struct sim *s, const struct block *b, const struct slots *l, double time);
 /* Forces and torques into rows, b->on. */
 void laws_pack(struct block *b);
+/* The same where the contact point lies on the line of centres: from b->arm_i, arm_j. */
+void laws_pack_line(struct block *b);
 /* J, stored by the contacts within `reach`; after laws_apply. */
 double laws_energy(struct block *b, double reach, const real *share);
 

@@ -44,6 +44,9 @@ void contact_free(struct sim *s)
     if (!s->contacts)
         return;
     xfree(s->contacts->sums);
+    for (int run = 0; run < s->contacts->runs; run++)
+        xfree(s->contacts->pack[run].data);
+    xfree(s->contacts->pack);
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
@@ -92,7 +95,9 @@ void contact_prepare(struct sim *s)
     }
     flush_sums(s);
     if (nb->runs > w->runs) {
+        const int runs = w->runs;
         w->runs = nb->runs + nb->runs / 4;
+        w->pack = xrealloc(w->pack, (size_t)runs, (size_t)w->runs, sizeof *w->pack);
         const size_t sums = (size_t)w->runs * (size_t)s->walls.n + 1;
         xfree(w->report);
         xfree(w->wall_force);
@@ -107,6 +112,17 @@ void contact_prepare(struct sim *s)
         xfree(w->sums);
         w->sums = xalloc(w->capacity, sizeof *w->sums);
     }
+    memset(w->sums, 0, entries * sizeof *w->sums); /* then cleared by who takes them */
+}
+
+void contact_put_back(struct sim *s)
+{
+    if (!shape.path->put_back)
+        return;
+#pragma omp parallel for schedule(static)
+    for (int run = 0; run < s->contacts->runs; run++)
+        if (s->contacts->pack[run].n > 0)
+            shape.path->put_back(s, run);
 }
 
 /* The contact of a slot is over: nothing is remembered, nothing acts. */
@@ -162,7 +178,6 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     const int first = run * RUN;
     const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
     const bool walls = nb->walls.begin[last] > nb->walls.begin[first];
-    const int halo = nb->halo_begin[run + 1] - nb->halo_begin[run];
     const struct target to = {.first = first,
                               .sums = &w->sums[neighbours_entry(nb, run, 0)],
                               .wall = &w->wall_force[(size_t)run * s->walls.n],
@@ -171,10 +186,14 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
                               .asked = asked};
     struct block b;
     if (choose) {
+        if (shape.path->put_back)
+            shape.path->put_back(s, run);
         choose_pairs(s, run, first, last);
+        if (shape.path->take)
+            shape.path->take(s, run);
         walls_choose(s, run, first, last);
     }
-    memset(to.sums, 0, (size_t)(RUN + halo) * sizeof *to.sums);
+    b.kept = NULL;
     if (walls || choose)
         memset(to.wall, 0, (size_t)s->walls.n * sizeof *to.wall);
     r->touching = 0;

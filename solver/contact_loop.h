@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include "contact_block.h"
+#include "contact_pack.h"
 #include "neighbours.h"
 
 struct sim;
@@ -26,6 +27,7 @@ struct contact_work {
     struct sums *sums;       /* per entry of a run: its grains, then its halo */
     size_t capacity;         /* of it */
     struct report *report;   /* per run */
+    struct pack *pack;       /* per run */
     struct sums *wall_force; /* per run and wall: on it, with the torque about its pivot, now */
     struct sums *wall_sum;   /* the same, over the steps since it was last collected */
     bool watched;            /* someone looks at single contacts (contact_view.h) */
@@ -45,6 +47,8 @@ double contact_reach(void); /* m, gap up to which some law acts */
 
 /* Room for the lists at hand: after every rebuild of them. */
 void contact_prepare(struct sim *s);
+/* The contacts' memory goes to the slots: before every rebuild. */
+void contact_put_back(struct sim *s);
 
 /* Forces of every contact at the bodies' places: sums per grain of each run and its halo,
  * which the motion gathers. `time`: s, of the state
@@ -54,13 +58,20 @@ void contact_prepare(struct sim *s);
 void contact_loop(struct sim *s, double time, bool choose, bool asked);
 
 /* Force and torque on grain i by its contacts: those of its own run, then of the others in their
- * order. */
-static inline struct sums contact_sums(const struct contact_work *w,
-                                       const struct neighbours *nb, int i)
+ * order. Clears these sums for the next step, while they are at hand; those of
+ * other runs are fetched in time. */
+static inline struct sums contact_take_sums(const struct contact_work *w,
+                                            const struct neighbours *nb, int i)
 {
-    struct sums sum = w->sums[neighbours_entry(nb, i / RUN, i % RUN)];
-    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++)
-        sum.both += w->sums[nb->in[k]].both;
+    struct sums *const own = &w->sums[neighbours_entry(nb, i / RUN, i % RUN)];
+    struct sums sum = *own;
+    *own = (struct sums){0};
+    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++) {
+        struct sums *const other = &w->sums[nb->in[k]];
+        __builtin_prefetch(&w->sums[nb->in[k + IN_AHEAD - 1]], 1);
+        sum.both += other->both;
+        *other = (struct sums){0};
+    }
     return sum;
 }
 

@@ -20,7 +20,12 @@ struct contact_path {
     void (*view)(const struct sim *s, struct contact_view *v);
     size_t (*seen_size)(const struct sim *s); /* bytes per slot */
     void (*stop)(const struct sim *s); /* a contact is too deep: stops the run and says which */
-    const struct turning *turning;     /* NULL: a grain's inertia is a number, and nobody
+    /* A path that keeps the contacts of a run's active pair slots in a form of its own takes them
+     * when they are chosen, and gives them back before they are chosen anew; NULL: it works on the
+     * slots. */
+    void (*take)(struct sim *s, int run);
+    void (*put_back)(struct sim *s, int run);
+    const struct turning *turning; /* NULL: a grain's inertia is a number, and nobody
                                                  asks for its orientation */
 };
 

@@ -65,7 +65,7 @@ static struct kicks kicks_of(const struct sim *s)
 static inline double8 forces(const struct sim *s, const struct kicks *k, int i)
 {
     const struct grains *const g = &s->grains;
-    double8 sum = contact_sums(s->contacts, &s->neighbours, i).both;
+    double8 sum = contact_take_sums(s->contacts, &s->neighbours, i).both;
     if (k->loaded)
         sum += (double8){g->load[i].x,        g->load[i].y,        g->load[i].z,        0.0,
                          g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
@@ -187,9 +187,9 @@ void motion_turn(struct sim *s, bool last, int parity)
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < s->neighbours.runs; run++)
         for (int i = run * RUN; i < run_end(s, run); i++) {
+            const double8 f = forces(s, &k, i), rate = rates(s, &k, i, f);
             if (g->inv_mass[i] == 0.0)
                 continue;
-            const double8 f = forces(s, &k, i), rate = rates(s, &k, i, f);
             struct motion_state m =
                 body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
             m.vel_spin += k.half * rate;

@@ -251,7 +251,7 @@ static void list_incoming(struct neighbours *nb, const int *halo, int n)
     const int entries = nb->halo_begin[nb->runs];
     int *const next = xalloc((size_t)n + 1, sizeof *next);
     xfree(nb->in);
-    nb->in = xalloc((size_t)entries + 1, sizeof *nb->in);
+    nb->in = xalloc((size_t)entries + IN_AHEAD, sizeof *nb->in);
     memset(nb->begin_in, 0, ((size_t)n + 1) * sizeof *nb->begin_in);
 #pragma omp parallel for schedule(static)
     for (int e = 0; e < entries; e++)
@@ -352,6 +352,7 @@ void neighbours_rebuild(struct sim *s)
     struct neighbours *const nb = &s->neighbours;
     struct search c;
     double clock = wall_clock();
+    contact_put_back(s);
     choose_skins(s);
     int *const order = search_sort(&c, s, nb->reach + nb->skin);
     nb->runs = (s->grains.n + RUN - 1) / RUN;

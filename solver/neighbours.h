@@ -19,7 +19,8 @@ struct sim;
 struct scene;
 
 enum { LIVE_REACH = 1, LIVE_OVERLAP = 2 }; /* within the range of a law; overlapping */
-enum { RUN = 128 }; /* grains per run, the unit of work of the contact loop */
+enum { IN_AHEAD = 16 };                    /* how far `in` may be read beyond its end */
+enum { RUN = 256 }; /* grains per run, the unit of work of the contact loop */
 
 struct slots {
     size_t n, capacity;
