@@ -1,9 +1,9 @@
 /* volume_parts.c - a body cut into parts, see volume_parts.h.
  *
- * Bricks of a lattice, as many as fit the body's box, whose corners, edges and faces are inside count
- * whole. At the surface a brick is cut again into small ones of a quarter its edge, and of each the
- * part inside is taken from the depth at its centre and its gradient, as of a half space. The volumes are then scaled, and the places moved, so that volume and centre
- * are those given. */
+ * Bricks of a lattice, as many as fit the body's box, count whole if 27 points of them are inside, and
+ * not at all if none is. The others are cut again into small ones of a quarter their edge, and of each
+ * the part inside is taken from the depth at its centre and its gradient, as of a half space. The
+ * volumes are then scaled, and the places moved, so that volume and centre are those given. */
 #include "volume_parts.h"
 
 #include "../shapes/shape.h"
@@ -55,16 +55,17 @@ static vec3 brick(vec3 middle, vec3 edge, const int index[3], const int n[3])
               middle.z + edge.z * (index[2] - 0.5 * (n[2] - 1)));
 }
 
-static bool whole(const struct cutting *c, vec3 centre)
+/* How many of 27 points of a brick - corners, middles of edges and faces, centre - are inside. */
+static int inside(const struct cutting *c, vec3 centre)
 {
     const int three[3] = {3, 3, 3};
+    int in = 0;
     for (int k = 0; k < 27; k++) {
         const int index[3] = {k % 3, k / 3 % 3, k / 9};
         const vec3 x = brick(centre, v3_scale(0.5 - 1e-9, c->edge), index, three);
-        if (!(c->depth(c->body, x) > 0.0))
-            return false;
+        in += c->depth(c->body, x) > 0.0;
     }
-    return true;
+    return in;
 }
 
 static void cut(struct cutting *c, vec3 centre)
@@ -73,10 +74,11 @@ static void cut(struct cutting *c, vec3 centre)
     const vec3 edge = v3_scale(1.0 / FINE, c->edge);
     double sum = 0.0;
     vec3 moment = v3(0.0, 0.0, 0.0);
-    if (whole(c, centre)) {
+    const int in = inside(c, centre);
+    if (in == 27)
         add(c, centre, c->edge.x * c->edge.y * c->edge.z);
+    if (in == 27 || in == 0)
         return;
-    }
     for (int k = 0; k < FINE * FINE * FINE; k++) {
         const int index[3] = {k % FINE, k / FINE % FINE, k / (FINE * FINE)};
         const vec3 x = brick(centre, edge, index, fine);
