@@ -1,9 +1,12 @@
 /* porosity/divided.c - a grain's volume divided among the cells that it overlaps, exactly.
  *
- *   w_pc = |ball p in cell c|/V_p        (the bounding sphere of a grain that is no sphere)
+ *   w_pc = |ball p in cell c|/V_p        
  *
- * The exact volumes are those of solver/shares.c. */
+ * The exact volumes of spheres are those of solver/shares.c; other shapes are shared by small parts of
+ * their own volume (solver/shares_grain.c). */
 #include "porosity.h"
+
+#include "../solver/shares_grain.h"
 
 const struct about porosity_about = {
     .name = "divided",
@@ -22,13 +25,13 @@ void porosity_init(struct scene *s)
 
 int porosity_reach(const struct grid *g, double radius)
 {
-    return shares_ball_most(g, radius);
+    return shares_grain_most(g, radius);
 }
 
 int porosity_shares(const struct grid *g, const struct domain *d, const struct grains *grains,
                     int i, struct share *out)
 {
-    return shares_ball(g, d, grains->pos[i], grains->radius[i], out);
+    return shares_grain(g, d, grains, i, 1.0, out);
 }
 
 double porosity_width(double radius)

@@ -8,11 +8,14 @@
  * the part of the larger sphere beyond a wall is mirrored into the box, so that grains which fill a
  * space evenly give an even fluid fraction up to its walls.
  *
+ * A grain that is no sphere is made larger by the same ratio, its volume thinner.
+ *
  * Volumes are exact and cost a formula per cell and grain; `gaussian` is as smooth at a fraction of
  * the price. */
 #include "porosity.h"
 
 #include "../solver/scene.h"
+#include "../solver/shares_grain.h"
 
 const struct about porosity_about = {
     .name = "porous_sphere",
@@ -38,13 +41,13 @@ void porosity_init(struct scene *s)
 
 int porosity_reach(const struct grid *g, double radius)
 {
-    return shares_ball_most(g, ratio * radius);
+    return shares_grain_most(g, ratio * radius);
 }
 
 int porosity_shares(const struct grid *g, const struct domain *d, const struct grains *grains,
                     int i, struct share *out)
 {
-    return shares_ball(g, d, grains->pos[i], ratio * grains->radius[i], out);
+    return shares_grain(g, d, grains, i, ratio, out);
 }
 
 double porosity_width(double radius)

@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "../drag/drag.h"
+#include "shares_grain.h"
 #include "sim.h"
 
 const struct key coupling_keys[] = {
@@ -26,6 +27,7 @@ void coupling_read(struct sim *s, struct scene *scene)
     drag_init(scene);
     drag_grains_read(s, scene);
     porosity_init(scene);
+    shares_grain_create(&s->grains, scene);
     forces_read(s, scene);
 }
 
@@ -90,6 +92,7 @@ void coupling_free(struct sim *s)
     void *const all[] = {c->n_shares, c->shares,  c->part,     c->values, c->v_ref,
                          c->drag,     c->vel_old, c->pos_load, c->swing,  c->slack};
     drag_grains_free(s);
+    shares_grain_free(&s->grains);
     forces_free(s);
     xfree(c->coupled);
     spread_free(&c->spread);

@@ -50,6 +50,19 @@ static inline double square_of(const struct sim *s, int a, int at)
                       : coupling_square(c->eps, at, s->grid.s[a], s->fluid.whole_pressure);
 }
 
+/* m/s, of a grain of which the drag depends on its direction; else it is not asked for. */
+static vec3 mean_slip(const struct sim *s, int i)
+{
+    const struct coupling *const c = &s->coupling;
+    const struct share *const w = &c->shares[(size_t)i * c->reach];
+    vec3 slip = v3_scale(-1.0, s->grains.vel[i]);
+    for (int k = 0; k < c->n_shares[i]; k++) {
+        const int at = w[k].cell;
+        slip = v3_axpy(slip, w[k].weight, v3(c->seen[0][at], c->seen[1][at], c->seen[2][at]));
+    }
+    return slip;
+}
+
 /* w kappa, 1/(1 + theta) and v' of one grain; returns its largest theta. It is `outside` where the
  * law does not hold in a cell that it has a share of. */
 static double grain_drag(struct sim *s, int i, bool *outside)
@@ -61,6 +74,9 @@ static double grain_drag(struct sim *s, int i, bool *outside)
     struct drag_point p = {
         .d = drag_grains_diameter(s, i), .y = 1.0, .grain = &c->drag_of.kind[g->kind[i]]};
     double theta[3] = {0.0, 0.0, 0.0};
+    struct drag_grain own;
+    if (c->drag_of.across[g->kind[i]])
+        p.grain = drag_grains_seen(s, i, mean_slip(s, i), &own);
     for (int k = 0; k < c->n_shares[i]; k++) {
         const int at = w[k].cell;
         const vec3 u = v3(c->seen[0][at], c->seen[1][at], c->seen[2][at]);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "../drag/drag.h"
+#include "../shapes/shape.h"
+#include "shadow.h"
 #include "sim.h"
 
 #define SHAPE_AUTO "auto | (0, inf)"
@@ -13,10 +15,12 @@ const struct key drag_grains_keys[] = {
      "surface of the sphere of equal volume over the grain's own, for the drag; auto: of its "
      "shape"},
     {"grains", "crosswise_sphericity", KEY_REAL, "1", SHAPE_AUTO, "auto",
-     "section of that sphere over the area of the grain seen along the flow; auto: 1"},
+     "section of that sphere over the area of the grain seen along the flow; auto: of its "
+     "shape as "
+     "it lies"},
     {"grains", "lengthwise_sphericity", KEY_REAL, "1", SHAPE_AUTO, "auto",
      "section of that sphere over (half the grain's surface - mean area seen along the flow); "
-     "auto: the crosswise one"},
+     "auto: of its shape as it lies; of a sphere with a crosswise one, that"},
     {"grains", "circularity", KEY_REAL, "1", "auto | [1, inf)", "auto",
      "of its outline, for the drag; auto: 1"},
     {0},
@@ -36,6 +40,61 @@ static double shape_number(struct scene *scene, const char *species, const char 
     return scene_real(scene, "grains", species, key);
 }
 
+/* Of the species' shape. */
+static double own_sphericity(const struct sim *s, struct scene *scene, int k)
+{
+    const double own = k < s->grains.n_species ? s->grains.species[k].form.sphericity : 1.0;
+    if (isfinite(own))
+        return own;
+    const char *const name = s->grains.species[k].name;
+    if ((drag_limits.shape & DRAG_SPHERICITY) &&
+        scene_word(scene, "grains", name, "sphericity", "auto"))
+        scene_error(scene, "grains", name, "sphericity", "is not known of shape = %s; give it",
+                    shape_about.name);
+    return 1.0;
+}
+
+static double crosswise_of(const void *species, vec3 way)
+{
+    return shape.crosswise(*(const int *)species, way);
+}
+
+struct seen_along {
+    const struct shadow *across;
+    double sphericity;
+};
+
+/* Section of the sphere, pi, over half the surface, 2 pi/sphericity, less the mean shadow along
+ * directions across the flow [HoelzerSommerfeld08]. */
+static double lengthwise_of(const void *data, vec3 way)
+{
+    enum { AROUND = 12 };
+    const struct seen_along *const a = data;
+    const vec3 u = fabs(way.z) < 0.7 ? v3(-way.y, way.x, 0.0) : v3(0.0, -way.z, way.y);
+    const vec3 e = v3_scale(1.0 / v3_norm(u), u), f = v3_cross(way, e);
+    double mean = 0.0;
+    for (int k = 0; k < AROUND; k++) {
+        const double angle = 3.14159265358979323846 * k / AROUND;
+        mean += 1.0 / AROUND /
+                shadow_area(a->across, v3_axpy(v3_scale(cos(angle), e), sin(angle), f));
+    }
+    return 1.0 / fmax(2.0 / a->sphericity - mean, 0.1);
+}
+
+/* Tables of the directions of species k, where the law reads such numbers and none is given. */
+static void by_direction(struct drag_grains *g, struct scene *scene, const char *name, int k)
+{
+    const unsigned wanted = drag_limits.shape & (DRAG_CROSSWISE | DRAG_LENGTHWISE);
+    if (!wanted || !shape.crosswise || scene_errors(scene) > 0 ||
+        !scene_word(scene, "grains", name, "crosswise_sphericity", "auto"))
+        return;
+    g->across[k] = shadow_of(crosswise_of, &k);
+    const struct seen_along a = {.across = g->across[k], .sphericity = g->kind[k].sphericity};
+    if ((wanted & DRAG_LENGTHWISE) &&
+        scene_word(scene, "grains", name, "lengthwise_sphericity", "auto"))
+        g->along[k] = shadow_of(lengthwise_of, &a);
+}
+
 void drag_grains_read(struct sim *s, struct scene *scene)
 {
     struct drag_grains *const g = &s->coupling.drag_of;
@@ -43,16 +102,40 @@ void drag_grains_read(struct sim *s, struct scene *scene)
     scene_declare(scene, drag_grains_keys);
     const int n = scene_names(scene, "grains", &names);
     g->kind = xalloc((size_t)n + 1, sizeof *g->kind);
+    g->across = xalloc((size_t)n + 1, sizeof(struct shadow *));
+    g->along = xalloc((size_t)n + 1, sizeof(struct shadow *));
+    g->n_kinds = n;
     for (int k = 0; k < n; k++) {
         const char *const name = names[k];
         struct drag_grain *const d = &g->kind[k];
-        d->sphericity = shape_number(scene, name, "sphericity", DRAG_SPHERICITY, 1.0);
+        d->sphericity = shape_number(scene, name, "sphericity", DRAG_SPHERICITY,
+                                     own_sphericity(s, scene, k));
         d->crosswise = shape_number(scene, name, "crosswise_sphericity", DRAG_CROSSWISE, 1.0);
         d->lengthwise =
             shape_number(scene, name, "lengthwise_sphericity", DRAG_LENGTHWISE, d->crosswise);
         d->circularity = shape_number(scene, name, "circularity", DRAG_CIRCULARITY, 1.0);
         d->density_ratio = scene_real(scene, "grains", name, "density") / s->fluid.rho;
+        by_direction(g, scene, name, k);
     }
+}
+
+const struct drag_grain *drag_grains_seen(const struct sim *s, int i, vec3 slip,
+                                          struct drag_grain *own)
+{
+    const struct drag_grains *const g = &s->coupling.drag_of;
+    const int k = s->grains.kind[i];
+    const double speed = v3_norm(slip);
+    if (!g->across[k] || !s->grains.orientation)
+        return &g->kind[k];
+    const struct mat3 turn = quat_matrix(s->grains.orientation[i]);
+    const vec3 way =
+        speed > 0.0 ? v3_scale(1.0 / speed, mat3_back(&turn, slip)) : v3(0.0, 0.0, 1.0);
+    *own = g->kind[k];
+    own->crosswise = shadow_area(g->across[k], way);
+    if (g->along[k])
+        own->lengthwise = shadow_area(g->along[k], way);
+    drag_prepare(own);
+    return own;
 }
 
 double drag_grains_diameter(const struct sim *s, int i)
@@ -96,8 +179,15 @@ void drag_grains_create(struct sim *s)
 
 void drag_grains_free(struct sim *s)
 {
-    xfree(s->coupling.drag_of.kind);
-    xfree(s->coupling.drag_of.sauter);
+    struct drag_grains *const g = &s->coupling.drag_of;
+    for (int k = 0; k < g->n_kinds; k++) {
+        shadow_free(g->across[k]);
+        shadow_free(g->along[k]);
+    }
+    xfree(g->across);
+    xfree(g->along);
+    xfree(g->kind);
+    xfree(g->sauter);
 }
 
 void drag_grains_warn(struct sim *s)

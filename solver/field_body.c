@@ -200,8 +200,8 @@ static void set_balls(struct field_body *b)
     bool *const covered = xalloc((size_t)b->n + 1, sizeof *covered);
     for (int k = 0; k < b->n; k++) {
         const double r = inner_radius(b, k);
-        all[k] =
-            (struct shape_ball){.centre = v3_axpy(b->at[k], -r, b->normal[k]), .radius = r};
+        all[k] = (struct shape_ball){
+            .centre = v3_axpy(b->at[k], -r, b->normal[k]), .radius = r, .curve = 1.0};
     }
     qsort(all, (size_t)b->n, sizeof *all, largest_first);
     b->ball = xalloc((size_t)b->n + 1, sizeof *b->ball);

@@ -13,6 +13,7 @@
 #include "size_distribution.h"
 
 struct sim;
+struct parts;
 
 enum { NAME_LENGTH = 32 };
 
@@ -79,6 +80,8 @@ struct grains {
     vec3 *inertia;    /* kg m2, principal; real, for a frozen grain too */
     vec3 *momentum;   /* kg m2/s, angular, in the laboratory: within the steps of a call */
     vec3 *full_spin;  /* rad/s, predicted for the full step */
+
+    struct parts *parts; /* of each species' volume (shares_grain.h); NULL: spheres */
 
     int n_species, n_materials;
     struct species *species;

@@ -7,7 +7,7 @@
 #include <string.h>
 #include "base.h"
 
-enum { ROWS = 9, COLUMNS = 32, PIXELS = 128 };
+enum { ROWS = 11, COLUMNS = 40, PIXELS = 128 };
 
 struct shadow {
     double area[ROWS][COLUMNS];
@@ -44,17 +44,26 @@ static void paint(struct canvas *c, double p[3][2])
         }
 }
 
-static double painted(struct canvas *c, const vec3 *corner, int n, vec3 way)
+/* Triangles to be painted. */
+struct scene_of {
+    const vec3 *corner;
+    int n;
+    struct canvas *canvas;
+};
+
+static double painted(const void *data, vec3 way)
 {
+    const struct scene_of *const all = data;
+    struct canvas *const c = all->canvas;
     const vec3 u = fabs(way.z) < 0.7 ? v3(-way.y, way.x, 0.0) : v3(0.0, -way.z, way.y);
     const vec3 e = v3_scale(1.0 / v3_norm(u), u), f = v3_cross(way, e);
     int count = 0;
     memset(c->painted, 0, sizeof c->painted);
-    for (int t = 0; t < n; t++) {
+    for (int t = 0; t < all->n; t++) {
         double p[3][2];
         for (int k = 0; k < 3; k++) {
-            p[k][0] = v3_dot(e, corner[3 * t + k]);
-            p[k][1] = v3_dot(f, corner[3 * t + k]);
+            p[k][0] = v3_dot(e, all->corner[3 * t + k]);
+            p[k][1] = v3_dot(f, all->corner[3 * t + k]);
         }
         paint(c, p);
     }
@@ -64,18 +73,25 @@ static double painted(struct canvas *c, const vec3 *corner, int n, vec3 way)
     return count * c->pixel * c->pixel;
 }
 
-struct shadow *shadow_create(const vec3 *corner, int n, double radius)
+struct shadow *shadow_of(double (*area)(const void *data, vec3 way), const void *data)
 {
     struct shadow *const s = xalloc(1, sizeof *s);
-    struct canvas *const c = xalloc(1, sizeof *c);
-    c->radius = radius;
-    c->pixel = 2.0 * radius / PIXELS;
     for (int r = 0; r < ROWS; r++)
         for (int k = 0; k < COLUMNS; k++) {
             const double z = r / (ROWS - 1.0), out = sqrt(1.0 - z * z);
             const double angle = 2.0 * 3.14159265358979323846 * k / COLUMNS;
-            s->area[r][k] = painted(c, corner, n, v3(out * cos(angle), out * sin(angle), z));
+            s->area[r][k] = area(data, v3(out * cos(angle), out * sin(angle), z));
         }
+    return s;
+}
+
+struct shadow *shadow_create(const vec3 *corner, int n, double radius)
+{
+    struct canvas *const c = xalloc(1, sizeof *c);
+    c->radius = radius;
+    c->pixel = 2.0 * radius / PIXELS;
+    struct shadow *const s =
+        shadow_of(painted, &(struct scene_of){.corner = corner, .n = n, .canvas = c});
     xfree(c);
     return s;
 }

@@ -20,6 +20,7 @@ static void read(struct grains *g, struct scene *scene)
         const char *const text = scene_text(scene, "grains", sp->name, "orientation");
         double q[4] = {1.0, 0.0, 0.0, 0.0};
         char rest;
+        sp->orientation = quat_one();
         sp->turned = strcmp(text, "random") != 0;
         sp->orientation = quat_one();
         if (!sp->turned || strcmp(text, "aligned") == 0)
