@@ -62,7 +62,7 @@ static struct distance_field *field_read(struct scene *scene, const char *name,
 }
 
 /* Of the nodes' net, for the drag. */
-static struct shadow *shadow_of(const struct field_body *b)
+static struct shadow *body_shadow(const struct field_body *b)
 {
     const struct surface_net *const s = b->net;
     vec3 *const corner = xalloc(3 * (size_t)s->n_triangles + 1, sizeof *corner);
@@ -91,7 +91,7 @@ static void read_form(struct scene *scene, const char *name, struct form *f,
         xfree(why);
         return;
     }
-    f->shadow = shadow_of(f->body);
+    f->shadow = body_shadow(f->body);
     out->bounding = fmax(1.0, f->body->bounding * (1.0 + 1e-12));
     out->inertia = f->body->inertia;
     out->axes = f->body->axes;
