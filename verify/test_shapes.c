@@ -22,7 +22,7 @@ static const struct asked {
     bool convex;
 } all_asked[] = {
     {"clump", "clump = tetrapod\n", 1e-3, false},
-    {"superquadric", "half_axes = 1 0.8 1.3\nblockiness = 4\nblockiness_across = 2\n", 1e-4,
+    {"superquadric", "half_axes = 1 0.8 1.3\nblockiness = 4\nblockiness_across = 2\n", 1e-3,
      true},
     {"level_set", "node_spacing = 0.04\n", 3e-2, true}, /* and its form */
 };
