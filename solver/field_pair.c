@@ -62,7 +62,8 @@ static void look(const struct field_placed *a, const struct field_placed *b, vec
             const double d =
                 b->size * distance_slope(f, v3_add(p.o, mat3_turn(&p.q, body->at[k])), &slope);
             const double steep = v3_norm(slope);
-            if (d >= out->nearest || !(steep > 0.0) || (d < 0.0 && out->n == SAMPLES))
+            if ((d >= 0.0 && d >= out->nearest) || !(steep > 0.0) ||
+                (d < 0.0 && out->n == SAMPLES))
                 continue;
             const vec3 n = v3_scale(sign / steep,
                                     mat3_turn(&b->turn, mat3_back(&b->body->to_field, slope)));
@@ -134,11 +135,12 @@ int field_meet(const struct field_placed *i, const struct field_placed *j, vec3 
     const vec3 other = v3_scale(-1.0, apart);
     int n = 0;
     all.n = 0;
-    all.nearest = reach + 1e-300;
+    all.nearest = reach;
+    all.near.node = -1;
     look(i, j, apart, v3(0.0, 0.0, 0.0), 1.0, reach, 0, &all);
     look(j, i, other, other, -1.0, reach, i->body->n, &all);
     if (all.n == 0) {
-        if (reach <= 0.0 || all.nearest > reach || most < 1)
+        if (all.near.node < 0 || most < 1)
             return 0;
         out[0] = (struct field_touch){.node = all.near.node,
                                       .depth = all.near.depth,
