@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 make -s -j"$(nproc)" build/release/front build/release/bench/kernels build/release/bench/answers \
-    build/release/bench/contact_answers
+    build/release/bench/contact_answers build/release/bench/walls
 slots=$(build/release/front slots scenes/packed_bed.ini)
 make -s -j"$(nproc)" $slots silt
 binary=$(make -s $slots where)
@@ -31,6 +31,7 @@ done
 build/release/bench/kernels
 OMP_NUM_THREADS=1 build/release/bench/answers
 OMP_NUM_THREADS=1 build/release/bench/contact_answers
+OMP_NUM_THREADS=1 build/release/bench/walls
 make -s build/release/bench/fluid
 for j in 1 $(nproc); do
     OMP_NUM_THREADS=$j GOMP_SPINCOUNT=1000 build/release/bench/fluid

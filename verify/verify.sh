@@ -100,7 +100,7 @@ value() {
         verify/cavity.sh
     section porosity_rate "Noise of the pressure, Pa, while one grain crosses faces of cells" \
         verify/porosity_rate.sh
-    section beverloo "Beverloo's law: five circular orifices, C and k of the fit" verify/beverloo.sh
+    section beverloo "Beverloo's law: six circular orifices, C and k of the fit" verify/beverloo.sh
     section drag_settling "Every law of drag with an isolated sphere comes to its own terminal velocity, one-way" \
         verify/drag_settling.sh
     section drag_figures "Terminal velocity by every law against Brown and Lawler; pictures docs/drag_*.png" \
