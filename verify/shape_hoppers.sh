@@ -10,7 +10,7 @@ out=out/shape_hoppers
 mkdir -p "$out"
 left() { # DIR: time since the gate, fraction left
     local t m
-    t=$(ncdump -v series_time "$1/run.nc" | sed -n '/^ series_time =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
+    t=$(ncdump -v sample_time "$1/run.nc" | sed -n '/^ sample_time =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
     m=$(ncdump -v slot_count "$1/run.nc" | sed -n '/^ slot_count =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
     paste <(tr ',' '\n' <<< "$t") <(tr ',' '\n' <<< "$m") |
         awk -v n="$2" '$1 >= 0.9 { printf "%.2f %.4f\n", $1 - 0.9, 1 - $2 / n }'

@@ -107,7 +107,8 @@ static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int
     if (h1 < c * h2 || h2 < c * h1)
         return; /* not between the faces: the nearest is a face, not this edge */
     const double distance = v3_dot(n, v3_sub(on_wall, on_body));
-    if (v3_dot(n, inward) < -LEVEL || (distance < 0.0 && !behind_all(p, on_wall)))
+    if (v3_dot(n, inward) < -LEVEL || distance < -s->r ||
+        (distance < 0.0 && !behind_all(p, on_wall)))
         return; /* the inside of the piece comes nearer; or it passes behind the body */
     put(s, id, on_body, distance, v3_scale(-1.0, n));
 }
