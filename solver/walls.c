@@ -255,18 +255,21 @@ static void near_of_images(const struct sim *s, const struct wall *w, vec3 x, do
     int most[3];
     for (int a = 0; a < 3; a++)
         most[a] = s->domain.periodic[a] ? 1 : 0;
+    const vec3 pivot = w->motion.pivot;
+    vec3 middle = w->middle;
+    if (w->pose.turned)
+        middle = v3_add(pivot, pose_turn(&w->pose, v3_sub(middle, pivot)));
     const vec3 home =
-        domain_minimum_image(&s->domain, v3_sub(v3_sub(x, w->pose.shift), w->middle));
+        domain_minimum_image(&s->domain, v3_sub(v3_sub(x, w->pose.shift), middle));
     for (int i = -most[0]; i <= most[0]; i++)
         for (int j = -most[1]; j <= most[1]; j++)
             for (int k = -most[2]; k <= most[2]; k++) {
                 const int old = out->n;
                 vec3 at = v3_add(
-                    v3_add(w->middle, home),
+                    v3_add(middle, home),
                     v3(i * s->domain.size[0], j * s->domain.size[1], k * s->domain.size[2]));
                 if (w->pose.turned)
-                    at = v3_add(w->motion.pivot,
-                                pose_back(&w->pose, v3_sub(at, w->motion.pivot)));
+                    at = v3_add(pivot, pose_back(&w->pose, v3_sub(at, pivot)));
                 near_of_wall(w, at, reach, out);
                 drop_repeated(out, from, old);
             }
