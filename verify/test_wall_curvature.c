@@ -10,7 +10,7 @@ enum { FIRST = 6 }; /* wall after the sides */
 #define YOUNG  2e7
 #define E_STAR (0.5 * YOUNG / (1.0 - 0.3 * 0.3)) /* of equal bodies */
 #define BALL                                                                                   \
-    "[run]\nend = 1 s\nsubsteps = 1\ndt = %g us\noverlap_max = 0.3\n[material a]\n"             \
+    "[run]\nend = 1 s\nsubsteps = 1\ndt = %g us\noverlap_max = 0.3\n[material a]\n"            \
     "young = 2e7 Pa\npoisson = 0.3\nrestitution = 1\nfriction = %g\n[grains a]\n"              \
     "diameter = 5 mm\ndensity = 2385 kg/m3\nfill = point\nposition = %.17g %.17g %.17g mm\n"
 #define STILL "[domain]\nsize = 60 60 60 mm\ngravity = 0 0 0 m/s2\n"
@@ -18,7 +18,8 @@ enum { FIRST = 6 }; /* wall after the sides */
 /* N, by the wall on a ball at rest. */
 static vec3 force(const char *wall, vec3 x)
 {
-    char *const text = xprintf(STILL "%s" BALL, wall, 0.1, 0.0, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z);
+    char *const text =
+        xprintf(STILL "%s" BALL, wall, 0.1, 0.0, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z);
     struct sim *const s = sim_from(text);
     ledger_start(s);
     step(s);
@@ -132,9 +133,10 @@ static void check_edges(void)
 /* The same wall and ball, moved along the periodic x by `shift`; where the ball is after. */
 static void turn_by(const char *wall, double shift, vec3 x, int steps, vec3 end[3])
 {
-    char *const text = xprintf("[domain]\nsize = 60 60 60 mm\nx = periodic\n"
-                               "gravity = 0 0 0 m/s2\n%s" BALL "velocity = 0.31 -0.17 -0.53 m/s\n",
-                               wall, 1.0, 0.4, 1e3 * fmod(x.x + shift, 0.06), 1e3 * x.y, 1e3 * x.z);
+    char *const text =
+        xprintf("[domain]\nsize = 60 60 60 mm\nx = periodic\n"
+                "gravity = 0 0 0 m/s2\n%s" BALL "velocity = 0.31 -0.17 -0.53 m/s\n",
+                wall, 1.0, 0.4, 1e3 * fmod(x.x + shift, 0.06), 1e3 * x.y, 1e3 * x.z);
     struct sim *const s = sim_from(text);
     ledger_start(s);
     for (int k = 0; k < steps; k++)
@@ -151,8 +153,8 @@ static void turn_by(const char *wall, double shift, vec3 x, int steps, vec3 end[
 static char *paddle(const char *kind, double shift, double pivot)
 {
     const double x = 1e3 * shift;
-    char *const turn = xprintf("spin = -61 rad/s\nspin_axis = 0.3 1 0.2\nspin_point = %.17g 27 24 mm\n",
-                               x + pivot);
+    char *const turn = xprintf(
+        "spin = -61 rad/s\nspin_axis = 0.3 1 0.2\nspin_point = %.17g 27 24 mm\n", x + pivot);
     char *wall;
     if (strcmp(kind, "mesh") == 0) {
         const vec3 o = v3(0.017 + shift, 0.013, 0.024), p = v3(0.043 + shift, 0.011, 0.025);
@@ -191,25 +193,27 @@ static void check_across(const char *kind, vec3 x, double pivot, int steps)
         off.x -= 0.06 * round(off.x / 0.06);
         check(v3_norm(off) < 1e-13, "%s across the side: place to %.2g m", kind, v3_norm(off));
         for (int j = 1; j < 3; j++)
-            check(v3_norm(v3_sub(got[j], want[j])) < 1e-10, "%s across the side: %s to %.2g m/s",
-                  kind, j == 1 ? "velocity" : "spin", v3_norm(v3_sub(got[j], want[j])));
+            check(v3_norm(v3_sub(got[j], want[j])) < 1e-10,
+                  "%s across the side: %s to %.2g m/s", kind, j == 1 ? "velocity" : "spin",
+                  v3_norm(v3_sub(got[j], want[j])));
     }
 }
 
 /* A wall that turns about a point far off is more than a period away from where it began. */
 static void check_far(void)
 {
-    char *const text = xprintf(
-        "[domain]\nsize = 60 60 60 mm\nx = periodic\n[wall w]\nkind = rectangle\n"
-        "corner = 20 25 20 mm\nedge1 = 20 0 0 mm\nedge2 = 0 10 0 mm\nspin = 1 rad/s\n"
-        "spin_axis = 0 0 1\nspin_point = %g 30 20 mm\n" BALL,
-        -30.0, 1.0, 0.0, 5.0, 5.0, 50.0);
+    char *const text =
+        xprintf("[domain]\nsize = 60 60 60 mm\nx = periodic\n[wall w]\nkind = rectangle\n"
+                "corner = 20 25 20 mm\nedge1 = 20 0 0 mm\nedge2 = 0 10 0 mm\nspin = 1 rad/s\n"
+                "spin_axis = 0 0 1\nspin_point = %g 30 20 mm\n" BALL,
+                -30.0, 1.0, 0.0, 5.0, 5.0, 50.0);
     struct sim *const s = sim_from(text);
     struct wall *const w = &s->walls.wall[s->walls.n - 1];
     const vec3 x = v3(0.0317, 0.0291, 0.0213);
     check_abs(walls_gap(s, x, 1e-4, 5e-3, NULL), 1.2e-3, 1e-14, "room over a plate");
     wall_pose_at(w, PI, 0.0); /* half a turn about a point 60 mm off: two periods */
-    check_abs(walls_gap(s, x, 1e-4, 5e-3, NULL), 1.2e-3, 1e-14, "half a turn about a far point");
+    check_abs(walls_gap(s, x, 1e-4, 5e-3, NULL), 1.2e-3, 1e-14,
+              "half a turn about a far point");
     sim_free(s);
     xfree(text);
 }
