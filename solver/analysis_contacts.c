@@ -51,7 +51,7 @@ static void define(struct sim *s, void *state, struct output_file *f)
                          {"contact_branch", "m",
                           "from the centre of the other (wall: the point) to the grain's"}};
     int dim[2] = {0, f->dim[DIM_COMPONENT]};
-    if (s->grains.n == 0)
+    if (s->grains.n == 0 && !insert_changes(s))
         return;
     output_check(f, nc_def_dim(f->nc, "contact", NC_UNLIMITED, &dim[0]));
     l->listed = output_define(f, "contacts_listed", NC_INT, 1, &f->dim[DIM_TIME], "1",
@@ -87,7 +87,7 @@ static vec3 vector_of(const struct seen *v, int which)
 static void record(struct sim *s, void *state, struct output_file *f)
 {
     struct list *const l = state;
-    if (s->grains.n == 0)
+    if (s->grains.n == 0 && !insert_changes(s))
         return;
     const struct contact_view *const v = contact_view(s);
     const size_t start[2] = {l->rows, 0}, count[2] = {v->n, 3};

@@ -12,7 +12,7 @@ static const struct key keys[] = {
     {0},
 };
 
-enum { SERIES = 13 };
+enum { SERIES = 19 };
 
 /* What goes into the series and the summary. */
 static const struct {
@@ -33,6 +33,12 @@ static const struct {
      offsetof(struct region, stress[0][2])},
     {"stress_yz", "Pa", "stress on grains along y across z",
      offsetof(struct region, stress[1][2])},
+    {"fabric_xx", "1", "fabric, mean of n n", offsetof(struct region, fabric[0][0])},
+    {"fabric_yy", "1", "fabric, mean of n n", offsetof(struct region, fabric[1][1])},
+    {"fabric_zz", "1", "fabric, mean of n n", offsetof(struct region, fabric[2][2])},
+    {"fabric_xy", "1", "fabric, mean of n n", offsetof(struct region, fabric[0][1])},
+    {"fabric_xz", "1", "fabric, mean of n n", offsetof(struct region, fabric[0][2])},
+    {"fabric_yz", "1", "fabric, mean of n n", offsetof(struct region, fabric[1][2])},
     {"anisotropy", "1", "deviator of the fabric: 0 isotropic, 1 all contacts parallel",
      offsetof(struct region, anisotropy)},
     {"solid_fraction", "1", "solid fraction", offsetof(struct region, solid)},

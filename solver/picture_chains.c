@@ -14,6 +14,7 @@ enum { LEFT = 85, TOP = 80, BOTTOM = 120, MOST_LINES = 30000 };
 struct chains {
     size_t n, first, contacts; /* grains; rows of the last output */
     double size[3], low[2], high[2], slice[2];
+    size_t *row, ids; /* of a grain, by its id */
     double *radius, *pos, *grain, *force, *normal, *point, *branch;
     double mean; /* N, of the normal forces shown */
 };
@@ -26,6 +27,33 @@ static int weakest_first(const void *a, const void *b)
 {
     const double p = ((const struct line *)a)->force, q = ((const struct line *)b)->force;
     return (p > q) - (p < q);
+}
+
+/* The grains of the last output. Where grains come and go they are rows of `grain`, told apart by ids;
+ * else the ids are the rows. */
+static bool read_grains(const struct run_file *r, struct chains *c)
+{
+    const size_t records = run_length(r, "time");
+    size_t n = 0, m = 0, got = 0, most = 0;
+    double *const count = run_all(r, "grain_count", &n);
+    c->radius =
+        count ? run_record(r, "radius", records - 1, &c->n) : run_all(r, "radius", &c->n);
+    c->pos = run_record(r, "position", records - 1, &got);
+    double *const id = count ? run_record(r, "grain_id", records - 1, &m) : NULL;
+    const bool good = c->radius && c->pos && got == 3 * c->n && (!count || (id && m == c->n));
+    if (good && count && count[records - 1] < (double)c->n)
+        c->n = (size_t)count[records - 1];
+    xfree(count);
+    for (size_t i = 0; good && i < c->n; i++) {
+        const size_t one = id ? (size_t)id[i] : i;
+        most = one > most ? one : most;
+    }
+    c->ids = most + 1;
+    c->row = xalloc(c->ids, sizeof *c->row); /* 1 + row; 0: there is none of that id */
+    for (size_t i = 0; good && i < c->n; i++)
+        c->row[id ? (size_t)id[i] : i] = i + 1;
+    xfree(id);
+    return good;
 }
 
 static bool read_chains(const struct run_file *r, struct chains *c)
@@ -45,11 +73,7 @@ static bool read_chains(const struct run_file *r, struct chains *c)
     c->normal = run_all(r, "contact_normal", &got);
     c->point = run_all(r, "contact_point", &got);
     c->branch = run_all(r, "contact_branch", &got);
-    c->radius = run_all(r, "radius", &c->n);
-    size_t records = run_length(r, "time");
-    c->pos = records > 0 ? run_record(r, "position", records - 1, &got) : NULL;
-    return c->contacts > 0 && rows >= c->first + c->contacts && c->pos && c->radius &&
-           got == 3 * c->n &&
+    return c->contacts > 0 && rows >= c->first + c->contacts && read_grains(r, c) &&
            nc_get_att_double(r->nc, NC_GLOBAL, "domain_size", c->size) == NC_NOERR;
 }
 
@@ -88,11 +112,12 @@ static struct line *find_lines(struct chains *c, size_t *count)
     for (size_t k = c->first; k < c->first + c->contacts; k++) {
         const double *const p = &c->point[3 * k], *const b = &c->branch[3 * k];
         const double f = normal_force(c, k);
-        const size_t i = (size_t)c->grain[k];
-        if (p[1] < c->slice[0] || p[1] > c->slice[1] || !(f > 0.0) || i >= c->n)
+        const size_t id = (size_t)c->grain[k];
+        if (p[1] < c->slice[0] || p[1] > c->slice[1] || !(f > 0.0) || id >= c->ids ||
+            c->row[id] == 0)
             continue;
         /* from the centre of the grain, near the point, back along the branch */
-        const double half = c->radius[i];
+        const double half = c->radius[c->row[id] - 1];
         const double *const n = &c->normal[3 * k];
         const double x = p[0] + half * n[0], z = p[2] + half * n[2];
         line[(*count)++] = (struct line){x, z, x - b[0], z - b[2], f};
@@ -176,7 +201,7 @@ void picture_chains(const struct run_file *r)
         choose_view(&c);
         draw(r, &c);
     }
-    void *const all[] = {c.radius, c.pos, c.grain, c.force, c.normal, c.point, c.branch};
+    void *const all[] = {c.row, c.radius, c.pos, c.grain, c.force, c.normal, c.point, c.branch};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
 }
