@@ -156,14 +156,21 @@ static bool is_due(const struct source *o, double mass)
     return o->rate > 0.0 ? o->done < o->asked : o->done_mass + 0.5 * mass <= o->asked_mass;
 }
 
-static _Noreturn void die_full(const struct sim *s, const struct source *o, double diameter)
+/* s; when the next grain of a source was due. */
+static double due_time(const struct source *o, double mass)
+{
+    return o->start + (o->rate > 0.0 ? (o->done + 1.0) / o->rate
+                                     : (o->done_mass + 0.5 * mass) / o->mass_flow);
+}
+
+static _Noreturn void die_full(const struct sim *s, const struct source *o, double diameter,
+                               double late)
 {
     die(EXIT_UNSTABLE,
-        "insert %s: no room for a grain of %g m for %g s, to t = %.9g s: asked %.0f grains "
+        "insert %s: no room for a grain of %g m, %g s late at t = %.9g s: asked %.0f grains "
         "(%.6g kg), done %.0f (%.6g kg); a larger region, faster grains, or more "
         "insert %s.patience",
-        o->name, diameter, s->t - o->waits, s->t, o->asked, o->asked_mass, o->done,
-        o->done_mass, o->name);
+        o->name, diameter, late, s->t, o->asked, o->asked_mass, o->done, o->done_mass, o->name);
 }
 
 /* One batch; returns how many came. */
@@ -180,16 +187,19 @@ static int serve(struct sim *s, int source, double until)
         const double d = sizes_draw(&k->sizes, seed & 0xfffffful, o->species, (long)o->done);
         const double mass = k->density * PI / 6.0 * d * d * d;
         vec3 x;
-        if (!is_due(o, mass))
+        if (!is_due(o, mass)) {
+            o->waits = -1.0;
             break;
+        }
         if (!open)
             gather(s, o, &near);
         gsl_rng_set(rng, mix(mix(seed, (unsigned long)o->done), (unsigned long)s->step));
         const double wide = d * k->form.bounding;
         if (!find_place(s, o, &near, wide, rng, &x)) {
             o->waits = o->waits < 0.0 ? s->t : o->waits;
-            if (s->t - o->waits >= o->patience)
-                die_full(s, o, d);
+            const double late = s->t - fmax(o->waits, due_time(o, mass));
+            if (late >= o->patience)
+                die_full(s, o, d, late);
             break;
         }
         const vec3 v = v3(o->velocity.x + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
@@ -197,7 +207,6 @@ static int serve(struct sim *s, int source, double until)
                           o->velocity.z + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0));
         const int i = insert_grain(s, o->species, x, d, v);
         fill_grid_add(&near, (struct placed){x, wide, o->species});
-        o->waits = -1.0;
         o->done += 1.0;
         o->done_mass += s->grains.mass[i];
         account(s, i, 1.0);

@@ -47,7 +47,7 @@ struct source {
     double asked, done; /* grains due by now, and come; with a mass flow `asked` is what
                                        has come and the one that waits */
     double asked_mass, done_mass; /* kg */
-    double waits;    /* s, since when a grain that is due has found no room; < 0: none */
+    double waits;    /* s, since when there is a debt for want of room; < 0: there is none */
     char *series[2]; /* names of its time series */
 };
 

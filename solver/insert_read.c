@@ -31,7 +31,7 @@ const struct key insert_keys[] = {
     {"insert", "every", KEY_REAL, "s", "auto | (0, inf)", "auto",
      "time between batches; auto: 100 steps of the grains"},
     {"insert", "patience", KEY_REAL, "s", "(0, inf)", "0.1 s",
-     "a grain that finds no room for so long stops the run"},
+     "a grain that is late by so much for want of room stops the run"},
     {"delete", "species", KEY_TEXT, "", "", "", "species to remove; default: any"},
     {"delete", "shape", KEY_CHOICE, "", SHAPES " | plane", "box",
      "of the region where grains vanish; plane: all that is behind it"},

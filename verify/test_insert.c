@@ -160,20 +160,34 @@ static void leave(int code, const char *message)
     _exit(code);
 }
 
-static void check_no_room(void)
+/* How a run with this source ends. */
+static int ends(const char *box, const char *source, const char *rest)
 {
+    int status = 0;
     fflush(stdout);
     const pid_t child = fork();
     if (child == 0) {
         die_hook = leave;
-        go(made("4 4 6 mm", "[insert a]\nrate = 5000 1/s\nevery = 0.2 ms\npatience = 10 ms\n",
-                ""));
+        go(made(box, source, rest));
         _exit(0);
     }
-    int status = 0;
     waitpid(child, &status, 0);
-    check(WIFEXITED(status) && WEXITSTATUS(status) == EXIT_UNSTABLE,
-          "no room for longer than the patience: exit %d", WEXITSTATUS(status));
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void check_no_room(void)
+{
+    const int full =
+        ends("4 4 6 mm", "[insert a]\nrate = 5000 1/s\nevery = 0.2 ms\npatience = 10 ms\n", "");
+    check(full == EXIT_UNSTABLE, "a box that is full stops the run: exit %d", full);
+#define NARROW "from = 4 3 14 mm\nto = 8 7 19 mm\nevery = 0.2 ms\npatience = 10 ms\n"
+    const char *const drain = "[side z-]\ngrains = open\n";
+    int late = ends("12 10 20 mm", "[insert a]\nrate = 12000 1/s\n" NARROW, drain);
+    check(late == EXIT_UNSTABLE, "so does a debt that grows though grains come: exit %d", late);
+    late = ends("12 10 20 mm", "[insert a]\nmass_flow = 57 g/s\n" NARROW, drain);
+    check(late == EXIT_UNSTABLE, "and one of mass: exit %d", late);
+    late = ends("12 10 20 mm", "[insert a]\nrate = 700 1/s\n" NARROW, drain);
+    check(late == 0, "a source that keeps up does not: exit %d", late);
 }
 
 static void check_threads(void)
