@@ -21,9 +21,9 @@ struct report {
     double energy;        /* J, when asked */
     bool too_deep;        /* a contact is deeper than run.overlap_max */
     /* Of contact_points.c: contacts of a slot, where they are more than it has room for; of the last
-     * contact that is too deep the grains (j = -1 - wall) and the overlap as a part of its scale. */
+     * contact that is too deep the grains (j = -1 - wall), its overlap and that of run.overlap_max. */
     int points, i, j;
-    double deep;
+    double deep, allowed; /* m */
 };
 
 struct sums {     /* of the contacts of a grain in one run */

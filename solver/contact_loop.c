@@ -240,7 +240,7 @@ void contact_collect(struct sim *s, int steps)
     walls_collect(s, steps);
 }
 
-void contact_die(const struct sim *s, int i, int j, double overlap)
+void contact_die(const struct sim *s, int i, int j, const char *overlap)
 {
     const struct grains *const g = &s->grains;
     char other[64];
@@ -249,8 +249,8 @@ void contact_die(const struct sim *s, int i, int j, double overlap)
     else
         snprintf(other, sizeof other, "grain %d", g->id[j]);
     die(EXIT_UNSTABLE,
-        "grain %d overlaps %s by %.3g of its radius at t = %.9g s, at %.6g %.6g %.6g m, speed "
-        "%.3g m/s: more than run.overlap_max = %g; take a shorter run.dt or stiffer grains",
+        "grain %d overlaps %s by %s at t = %.9g s, at %.6g %.6g %.6g m, speed %.3g m/s: more than "
+        "run.overlap_max = %g; take a shorter run.dt or stiffer grains",
         g->id[i], other, overlap, s->t, g->pos[i].x, g->pos[i].y, g->pos[i].z,
         v3_norm(g->vel[i]), s->run.overlap_max);
 }
@@ -289,5 +289,5 @@ void contact_stop_spheres(const struct sim *s)
             j = -1 - s->walls.wall_of[walls->other[t]];
         }
     }
-    contact_die(s, i, j, most);
+    contact_die(s, i, j, xprintf("%.3g of its radius", most));
 }

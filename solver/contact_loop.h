@@ -79,8 +79,8 @@ static inline struct sums contact_take_sums(const struct contact_work *w,
  * and, after a step that was asked for them, energies, counts and overlaps. */
 void contact_collect(struct sim *s, int steps);
 
-/* Says which contact is too deep (j = -1 - wall), and stops. */
-void contact_die(const struct sim *s, int i, int j, double overlap);
+/* Says which contact is too deep (j = -1 - wall) by how much, and stops. */
+void contact_die(const struct sim *s, int i, int j, const char *overlap);
 void contact_stop_spheres(const struct sim *s);
 
 /* Stops the run (EXIT_UNSTABLE) where grains overlapped too deeply. */

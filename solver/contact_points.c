@@ -173,7 +173,8 @@ static void guard(const struct block *b, real most, struct report *r)
             r->too_deep = true;
             r->i = b->c.i[c];
             r->j = b->walls ? -1 - b->wall[c] : b->c.j[c];
-            r->deep = (double)(b->t.depth[c] / b->scale[c]);
+            r->deep = (double)b->t.depth[c];
+            r->allowed = (double)(most * b->scale[c]);
         }
     r->too_deep = r->too_deep || r->points > 0;
 }
@@ -190,7 +191,8 @@ static void stop(const struct sim *s)
                 "they overlap too much, or the shape needs more points",
                 r->points, points_cut(s).most, s->t);
         if (r->too_deep)
-            contact_die(s, r->i, r->j, r->deep);
+            contact_die(s, r->i, r->j,
+                        xprintf("%.3g m, where %.3g m are allowed,", r->deep, r->allowed));
     }
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # verify/shape_hoppers.sh [FILLINGS] [section.key=value ...] - prisms and cone pairs run out of the hopper of
 # [LiLiuJi23, figs 6 to 9], each from FILLINGS (5) random fillings: the fraction of grains left in it, least,
-# mean and most of the fillings, against time after the gate. Hours on one core.
+# mean and most of the fillings, against time after the gate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fillings=${1:-5}
@@ -13,14 +13,14 @@ left() { # DIR: time since the gate, fraction left
     t=$(ncdump -v sample_time "$1/run.nc" | sed -n '/^ sample_time =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
     m=$(ncdump -v slot_count "$1/run.nc" | sed -n '/^ slot_count =/,/;/p' | sed 's/.*=//' | tr -d ' \n;')
     paste <(tr ',' '\n' <<< "$t") <(tr ',' '\n' <<< "$m") |
-        awk -v n="$2" '$1 >= 0.9 { printf "%.2f %.4f\n", $1 - 0.9, 1 - $2 / n }'
+        awk -v n="$2" '$1 >= 0.6 && !(k++ % 8) { printf "%.2f %.4f\n", $1 - 0.6, 1 - $2 / n }'
 }
 for scene in prism_hopper cone_pair_hopper; do
     : > "$out/$scene.all"
     for k in $(seq "$fillings"); do
         ./run.sh "scenes/$scene.ini" "run.seed=$k" "$@" -o "$out/$scene.$k" > "$out/log" 2>&1 ||
             { tail -n 3 "$out/log"; exit 1; }
-        left "$out/$scene.$k" "$(ncdump -h "$out/$scene.$k/run.nc" | sed -n 's/.*grain = \([0-9]*\).*/\1/p' | head -n 1)" \
+        left "$out/$scene.$k" "$(sed -n 's/^.*_made = \([0-9]*\)$/\1/p' "$out/$scene.$k/summary.txt")" \
             >> "$out/$scene.all"
     done
     echo "$scene: s after the gate, fraction left: least, mean, most of $fillings fillings"

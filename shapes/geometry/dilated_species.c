@@ -7,7 +7,10 @@
 #define TILT                                                                                   \
     0.1 /* patch.h: a few degrees, far above what contacts bend by, far below a right angle */
 
-enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16, POINTS_SEVERAL = 64 };
+enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16 };
+
+/* Least room for points of several parts, and for each part, as bars of hollow boxes cross many. */
+enum { POINTS_SEVERAL = 64, POINTS_PART = 16 };
 
 static void refuse(struct scene *scene, const char *name, const char *key, char *why)
 {
@@ -117,7 +120,8 @@ static void fill_form(struct dilated *d, struct shape_form *f)
     if (d->n_parts == 1)
         f->points_most = corners < POINTS_ONE ? corners : POINTS_ONE;
     else
-        f->points_most = POINTS_SEVERAL;
+        f->points_most =
+            d->n_parts * POINTS_PART > POINTS_SEVERAL ? d->n_parts * POINTS_PART : POINTS_SEVERAL;
 }
 
 static void read_detection(struct dilated_species *s, struct scene *scene,
