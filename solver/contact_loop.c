@@ -249,7 +249,8 @@ void contact_die(const struct sim *s, int i, int j, const char *overlap)
     else
         snprintf(other, sizeof other, "grain %d", g->id[j]);
     die(EXIT_UNSTABLE,
-        "grain %d overlaps %s by %s at t = %.9g s, at %.6g %.6g %.6g m, speed %.3g m/s: more than "
+        "grain %d overlaps %s by %s at t = %.9g s, at %.6g %.6g %.6g m, speed %.3g m/s: more "
+        "than "
         "run.overlap_max = %g; take a shorter run.dt or stiffer grains",
         g->id[i], other, overlap, s->t, g->pos[i].x, g->pos[i].y, g->pos[i].z,
         v3_norm(g->vel[i]), s->run.overlap_max);

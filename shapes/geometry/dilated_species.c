@@ -120,8 +120,8 @@ static void fill_form(struct dilated *d, struct shape_form *f)
     if (d->n_parts == 1)
         f->points_most = corners < POINTS_ONE ? corners : POINTS_ONE;
     else
-        f->points_most =
-            d->n_parts * POINTS_PART > POINTS_SEVERAL ? d->n_parts * POINTS_PART : POINTS_SEVERAL;
+        f->points_most = d->n_parts * POINTS_PART > POINTS_SEVERAL ? d->n_parts * POINTS_PART
+                                                                   : POINTS_SEVERAL;
 }
 
 static void read_detection(struct dilated_species *s, struct scene *scene,
