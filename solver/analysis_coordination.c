@@ -5,16 +5,18 @@
  *
  * over the N grains that move. A rattler has fewer than output.rattlers contacts; those of
  * rattlers do not count for others, so they are sought again until none is left [OHern03]. A
- * frictionless sphere needs 4, one with friction 2. */
+ * frictionless sphere needs 4, one with friction 2: so by default. */
 #include <string.h>
+#include "../contact/contact.h"
 #include "analysis.h"
 #include "sim.h"
 
 static const struct key keys[] = {
     {"output", "coordination", KEY_CHOICE, "", "off | on", "off",
      "contacts per grain: mean, with and without rattlers, histogram, of each grain"},
-    {"output", "rattlers", KEY_INT, "", "[0, 12]", "4",
-     "a grain with fewer contacts (those with other rattlers not counted) carries nothing"},
+    {"output", "rattlers", KEY_INT, "", "auto | [0, 12]", "auto",
+     "a grain with fewer contacts (those with other rattlers not counted) carries nothing; "
+     "auto: 2 where grains have friction, else 4"},
     {0},
 };
 
@@ -45,10 +47,23 @@ static const struct table pattern = {
                .n_curves = 1,
                .curve = {{"share", "points", "part of the grains"}}}};
 
+static bool has_friction(const struct sim *s, struct scene *scene)
+{
+    for (int m = 0; m < s->grains.n_materials && contact_history > 0; m++) {
+        const char *const name = s->grains.materials[m].name;
+        if (strcmp(name, "wall") != 0 && scene_given(scene, "material", name, "friction") &&
+            scene_real(scene, "material", name, "friction") > 0.0)
+            return true;
+    }
+    return false;
+}
+
 static void *create(struct sim *s, struct scene *scene)
 {
     const bool on = scene_choice(scene, "output", NULL, "coordination") == 1;
-    const int least = scene_int(scene, "output", NULL, "rattlers");
+    const int least = scene_word(scene, "output", NULL, "rattlers", "auto")
+                          ? (has_friction(s, scene) ? 2 : 4)
+                          : scene_int(scene, "output", NULL, "rattlers");
     if (!on)
         return NULL;
     struct coordination *const c = xalloc(1, sizeof *c);

@@ -79,6 +79,27 @@ static void check_lattice(const char *cell, double spacing, double z, double gra
     xfree(text);
 }
 
+/* A closed chain of three: each of its grains has two contacts, which bear only with friction. */
+static void check_rattlers(const char *friction, double bear)
+{
+#define LINK(name, z)                                                                          \
+    "[grains " name "]\ndiameter = 3.01 mm\ndensity = 2385 kg/m3\nfill = point\n"              \
+    "material = m\nposition = 3.1 2.9 " z " mm\n"
+    char *const text = xprintf(
+        LINK("a", "0.7") LINK("b", "3.7") LINK(
+            "c", "6.7") "[domain]\nsize = 12 12 9 mm\n" PERIODIC
+                        "[output]\ncoordination = on\n[run]\nend = 1 s\n[material m]\n"
+                        "young = 2e7 Pa\npoisson = 0.3\nrestitution = 0.2\nfriction = %s\n",
+        friction);
+    struct sim *const s = sim_from(text);
+    analysis_sample(s);
+    check_abs(*s->series.entry[0].value, 2.0, 0.0, "chain: coordination");
+    check_abs(*s->series.entry[1].value, 2.0 * bear, 0.0, "chain: without rattlers");
+    check_abs(*s->series.entry[2].value, 1.0 - bear, 0.0, "chain: rattlers");
+    sim_free(s);
+    xfree(text);
+}
+
 #define BED                                                                                    \
     "[grains a]\ndiameter = 1 mm\ndensity = 2385 kg/m3\nfill = random\ncount = 96\n"           \
     "material = m\nfrom = 0 0 0 mm\nto = 4 4.2 10 mm\n"                                        \
@@ -234,6 +255,8 @@ static unsigned long view_bits(struct sim *s)
 int main(void)
 {
     check_two();
+    check_rattlers("0.3", 1.0);
+    check_rattlers("0", 0.0);
     check_lattice("simple_cubic", 1.0, 6.0, 1.0);
     check_lattice("bcc", 2.0 / sqrt(3.0), 8.0, 2.0);
     check_lattice("fcc", sqrt(2.0), 12.0, 4.0);
