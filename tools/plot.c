@@ -242,7 +242,7 @@ static void draw_series(const struct run_file *r)
         picture_text(to, "label 2", head, "at screen 0.5,0.97 center font ',15' noenhanced");
         fprintf(to, "unset key\nset xlabel 'time, s'\nset xrange [%.10g:%.10g]\n",
                 fmin(0.0, time[0]), time[samples - 1]);
-        fprintf(to, "set format y '%%.3g'\n");
+        fprintf(to, "set format y '%%.5g'\n");
         for (int i = 0; i < n; i++) {
             draw_one_series(r, to, list[i], time, i);
             fprintf(to, "unset label\n");
