@@ -113,6 +113,7 @@ static inline void shape_balls_touch(struct shape_point *restrict p, vec3 ci, do
     p->r_i = ri;
     p->r_j = rj;
     p->scale = ri < rj ? ri : rj;
+    p->share = 0.0;
 }
 
 static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, double rj,
