@@ -2,10 +2,10 @@
  * tangential displacement, which softens towards Coulomb's limit.
  *
  *   F_n = k_n depth^(3/2) - sqrt(5) zeta sqrt(m* k_n) depth^(1/4) v_n, cut at zero,
- *   k_n = (4/3) E* sqrt(R*)                                                   [Li23, eq. 16]
+ *   k_n = (4/3) E* sqrt(R*)                                                   [LiLiuJi23, eq. 16]
  *   F_t = -mu k_n depth^(3/2) (1 - (1 - s/s_max)^(3/2)) - c_t v_t,  s <= s_max, F_t <= mu F_n,
  *   s_max = mu depth E* / (4 G*), which is mu depth (2 - nu)/(2 - 2 nu) for like bodies,
- *   c_t = zeta_t sqrt(6 mu m* k_n depth^(3/2) sqrt(1 - s/s_max)/s_max)        [Li23, eq. 17]
+ *   c_t = zeta_t sqrt(6 mu m* k_n depth^(3/2) sqrt(1 - s/s_max)/s_max)        [LiLiuJi23, eq. 17]
  * with the displacement s turned with the contact plane.
  *
  * Misprints mended: eq. (16) has depth^(1/2) for depth^(1/4), and lacks sqrt(5), in the damping;
@@ -27,7 +27,7 @@ const struct about contact_about = {
     .summary = "Hertz with Tsuji's damping, tangential force in closed form, Coulomb's limit",
     .equation =
         "F_n = k_n d^1.5 - c_n v_n; F_t = -mu k_n d^1.5 (1 - (1 - s/s_max)^1.5) - c_t v_t",
-    .source = "[Li23, eqs 16, 17], [Hertz1882], [Mindlin49], [Tsuji92]",
+    .source = "[LiLiuJi23, eqs 16, 17], [Hertz1882], [Mindlin49], [Tsuji92]",
     .range = "elastic bodies, overlaps below a few % of the radius",
     .cost = "the same as hertz_mindlin and powers 1.5 and 0.5 of the spring over its limit"};
 
