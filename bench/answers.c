@@ -144,13 +144,13 @@ static void porosity_cost(const char *name, void *answer)
     const struct about *about;
     void (*init)(struct scene *);
     int (*reach)(const struct grid *, double);
-    double (*width)(double);
+    struct diffuse *(*diffusion)(const struct grid *, const struct domain *, double);
     const struct key *keys;
     struct spreading s = {.domain = {.size = {1.0, 1.0, 1.0}, .cells = {CELLS, CELLS, CELLS}}};
     if (!answers_symbol(answer, "porosity_shares", &s.shares, sizeof s.shares) ||
         !answers_symbol(answer, "porosity_init", &init, sizeof init) ||
         !answers_symbol(answer, "porosity_reach", &reach, sizeof reach) ||
-        !answers_symbol(answer, "porosity_width", &width, sizeof width) ||
+        !answers_symbol(answer, "porosity_diffusion", &diffusion, sizeof diffusion) ||
         !answers_symbol(answer, "porosity_keys", &keys, sizeof keys) ||
         !answers_symbol(answer, "porosity_about", &about, sizeof about))
         return;
@@ -165,8 +165,7 @@ static void porosity_cost(const char *name, void *answer)
     s.share = xalloc((size_t)GRAINS * s.reach, sizeof *s.share);
     s.field = grid_field(&s.grid);
     spread_create(&s.spread, &s.grid);
-    if (width(s.grains.radius[0]) > 0.0)
-        s.diffuse = diffuse_create(&s.grid, &s.domain, width(s.grains.radius[0]));
+    s.diffuse = diffusion(&s.grid, &s.domain, s.grains.radius[0]);
     time_answer(about, porosity_work, &s, GRAINS);
     void *const all[] = {s.grains.pos, s.grains.radius, s.grains.volume,
                          s.n_shares,   s.share,         s.field};

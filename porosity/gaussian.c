@@ -49,7 +49,7 @@ int porosity_shares(const struct grid *g, const struct domain *d, const struct g
     return shares_trilinear(g, d, grains->pos[i], out);
 }
 
-double porosity_width(double radius)
+struct diffuse *porosity_diffusion(const struct grid *g, const struct domain *d, double radius)
 {
-    return width > 0.0 ? width : 4.0 * radius;
+    return diffuse_create(g, d, width > 0.0 ? width : 4.0 * radius);
 }

@@ -13,6 +13,7 @@
 #ifndef POROSITY_H
 #define POROSITY_H
 
+#include "../solver/diffuse.h"
 #include "../solver/grains.h"
 #include "../solver/shares.h"
 
@@ -29,7 +30,7 @@ int porosity_reach(const struct grid *g, double radius);
 int porosity_shares(const struct grid *g, const struct domain *d, const struct grains *grains,
                     int i, struct share *out);
 
-/* Standard deviation of the Gaussian, m, where the largest grain has this radius; 0: none. */
-double porosity_width(double radius);
+/* The Gaussian, where the largest grain has this radius, m; NULL: none. The caller frees it. */
+struct diffuse *porosity_diffusion(const struct grid *g, const struct domain *d, double radius);
 
 #endif

@@ -45,9 +45,7 @@ void coupling_create(struct sim *s)
     grains_follow(g, (void **)&c->v_ref, sizeof *c->v_ref);
     grains_follow(g, (void **)&c->slack, sizeof *c->slack);
     spread_create(&c->spread, &s->grid);
-    const double width = porosity_width(grains_widest(g));
-    if (width > 0.0)
-        c->diffuse = diffuse_create(&s->grid, &s->domain, width);
+    c->diffuse = porosity_diffusion(&s->grid, &s->domain, grains_widest(g));
     c->drag = xalloc(n, sizeof *c->drag);
     c->vel_old = xalloc(n, sizeof *c->vel_old);
     c->pos_load = xalloc(n, sizeof *c->pos_load);
@@ -99,7 +97,7 @@ void coupling_free(struct sim *s)
     diffuse_free(c->diffuse);
     if (c->eps_seen != c->eps)
         xfree(c->eps_seen);
-    if (c->ways == 1)
+    if (c->eps != s->fluid.eps)
         xfree(c->eps);
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);

@@ -32,14 +32,19 @@ struct direction {
     double *decay; /* per mode, over the norm of the transforms */
 };
 
-struct diffuse {
+struct transforms {
+    struct diffuse can; /* first */
     const struct grid *g;
     struct direction of[3];
 };
 
+static void apply(struct diffuse *can, double *field);
+static void transforms_free(struct diffuse *can);
+
 struct diffuse *diffuse_create(const struct grid *g, const struct domain *d, double width)
 {
-    struct diffuse *const f = xalloc(1, sizeof *f);
+    struct transforms *const f = xalloc(1, sizeof *f);
+    f->can = (struct diffuse){.apply = apply, .free = transforms_free};
     f->g = g;
     for (int a = 0; a < 3; a++) {
         const enum poisson_side side = d->periodic[a] ? POISSON_PERIODIC : POISSON_NEUMANN;
@@ -53,12 +58,13 @@ struct diffuse *diffuse_create(const struct grid *g, const struct domain *d, dou
         for (int k = 0; k < n; k++)
             f->of[a].decay[k] = exp(-s * t->eigenvalue[k]) / t->norm;
     }
-    return f;
+    return &f->can;
 }
 
-void diffuse_free(struct diffuse *f)
+static void transforms_free(struct diffuse *can)
 {
-    for (int a = 0; f && a < 3; a++) {
+    struct transforms *const f = (struct transforms *)can;
+    for (int a = 0; a < 3; a++) {
         if (f->of[a].t)
             transform_free(f->of[a].t);
         xfree(f->of[a].decay);
@@ -152,15 +158,16 @@ static int at_most(int x, int most)
 }
 
 /* Columns side by side along direction a (y or z), from the first interior cells of a row. */
-static void columns(const struct diffuse *f, int a, double *row, struct pair *work)
+static void columns(const struct transforms *f, int a, double *row, struct pair *work)
 {
     const int n = f->g->n[0];
     for (int i = 0; i < n; i += LINES)
         diffuse_lines(&f->of[a], row + i, f->g->s[a], 1, at_most(n - i, LINES), work);
 }
 
-void diffuse_apply(struct diffuse *f, double *field)
+static void apply(struct diffuse *can, double *field)
 {
+    const struct transforms *const f = (const struct transforms *)can;
     const struct grid *const g = f->g;
     int longest = 1;
     for (int a = 0; a < 3; a++)

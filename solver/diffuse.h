@@ -9,13 +9,24 @@
 
 #include "grid.h"
 
-struct diffuse; /* the transforms per direction */
+/* What a binary without diffusion must know of it, so that it links none of the transforms. */
+struct diffuse {
+    void (*apply)(struct diffuse *f, double *field);
+    void (*free)(struct diffuse *f);
+};
 
 /* width: standard deviation, m, > 0 */
 struct diffuse *diffuse_create(const struct grid *g, const struct domain *d, double width);
-void diffuse_free(struct diffuse *f);
+static inline void diffuse_free(struct diffuse *f)
+{
+    if (f)
+        f->free(f);
+}
 
 /* In place; reads and writes interior cells only. The same bits on any number of threads. */
-void diffuse_apply(struct diffuse *f, double *field);
+static inline void diffuse_apply(struct diffuse *f, double *field)
+{
+    f->apply(f, field);
+}
 
 #endif

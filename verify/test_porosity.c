@@ -177,7 +177,7 @@ struct answer {
     int (*reach)(const struct grid *g, double radius);
     int (*shares)(const struct grid *g, const struct domain *d, const struct grains *grains,
                   int i, struct share *out);
-    double (*width)(double radius);
+    struct diffuse *(*diffusion)(const struct grid *g, const struct domain *d, double radius);
     void (*init)(struct scene *s);
     const struct key *keys;
     const int *displaces;
@@ -276,8 +276,7 @@ static void see(struct seen *s, const struct answer *answer, const struct domain
     s->n_shares = xalloc((size_t)grains->n, sizeof *s->n_shares);
     for (int n = 0; n < grains->n; n++)
         s->n_shares[n] = answer->shares(&s->g, d, grains, n, &s->shares[(size_t)n * s->reach]);
-    if (answer->width(largest) > 0.0)
-        s->diffuse = diffuse_create(&s->g, d, answer->width(largest));
+    s->diffuse = answer->diffusion(&s->g, d, largest);
     spread_create(&s->spread, &s->g);
     spread_prepare(&s->spread, grains->n, s->reach, s->n_shares, s->shares);
 }
@@ -433,7 +432,7 @@ static void visit(const char *name, void *object)
     struct answer a = {.name = name};
     if (!answers_symbol(object, "porosity_reach", &a.reach, sizeof a.reach) ||
         !answers_symbol(object, "porosity_shares", &a.shares, sizeof a.shares) ||
-        !answers_symbol(object, "porosity_width", &a.width, sizeof a.width) ||
+        !answers_symbol(object, "porosity_diffusion", &a.diffusion, sizeof a.diffusion) ||
         !answers_symbol(object, "porosity_displaces", &a.displaces, sizeof a.displaces) ||
         !answers_symbol(object, "porosity_init", &a.init, sizeof a.init) ||
         !answers_symbol(object, "porosity_keys", &a.keys, sizeof a.keys))
