@@ -3,7 +3,7 @@
  * Two clumps touch where their spheres do: each pair of spheres that overlaps is a contact, with its
  * own radii, and so is each sphere on an element of a wall. Volume, centre and inertia are those of
  * the union, each part counted once (disc_union.c), not the sum over spheres that many codes take.
- * A clump of one sphere is a sphere, to the last bit. Also the template for shapes with more than one
+ * A clump of one sphere is a sphere, to round-off. Also the template for shapes with more than one
  * contact a pair. */
 #include "../solver/ball_sets.h"
 #include "../solver/ball_surface.h"

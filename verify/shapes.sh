@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# verify/shapes.sh - a clump of one sphere is a sphere: the same motion to the last bit, with history,
+# verify/shapes.sh - a clump of one sphere is a sphere: the same motion to round-off, with history,
 # rolling, cohesion, frozen grains, walls of several kinds, a moving STL mesh among them. (A dilute
 # throng: where a grain has three contacts and more, the two paths add them in another order.)
 set -uo pipefail
@@ -79,12 +79,16 @@ numbers() { # SHAPE THREADS
 sphere=$(numbers sphere 2)
 clump=$(numbers clump 1)
 lines=$(wc -l <<< "$sphere")
-if [ "$lines" -gt 300 ] && [ "$sphere" = "$clump" ]; then
-    echo "ok   a clump of one sphere moves as a sphere does, to the last bit, $lines lines"
+# Spheres take one cross product for both torques, points of contact two: they differ by round-off.
+worst=$(paste -d ' ' <(tr -s ', ;=' '\n' <<< "$sphere") <(tr -s ', ;=' '\n' <<< "$clump") |
+    awk '$1 != $2 { if ($1 + 0 == 0 && $1 !~ /^-?0/) { print 1; exit }
+                    d = $1 - $2; d = d < 0 ? -d : d; if (d > worst) worst = d }
+         END { printf "%.2g\n", worst }' | head -n 1)
+if [ "$lines" -gt 300 ] && awk -v w="$worst" 'BEGIN { exit !(w < 1e-9) }'; then
+    echo "ok   a clump of one sphere moves as a sphere does, within $worst in any number of $lines lines"
     passed=$((passed + 1))
 else
-    echo "FAIL a clump of one sphere does not move as a sphere ($lines lines)"
-    diff <(echo "$sphere") <(echo "$clump") | head -n 6
+    echo "FAIL a clump of one sphere does not move as a sphere: off by $worst ($lines lines)"
     failed=$((failed + 1))
 fi
 echo "$passed passed, $failed failed"
