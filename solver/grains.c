@@ -101,7 +101,8 @@ static void read_forms(struct grains *g, struct scene *scene)
         form[k] = (struct shape_form){.bounding = 1.0,
                                       .inertia = {0.4, 0.4, 0.4},
                                       .axes = quat_one(),
-                                      .sphericity = (double)NAN,
+                                      /* a shape with nothing to read is a sphere */
+                                      .sphericity = shape.init ? (double)NAN : 1.0,
                                       .points_most = 1};
     if (shape.init)
         shape.init(scene, g, form);
