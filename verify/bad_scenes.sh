@@ -228,9 +228,9 @@ cp "$tmp/good.ini" "$tmp/a place/here.ini"
 verdict $? "run.sh works from another folder"
 for signal in INT TERM; do
     rm -rf "$tmp/long"
-    # a shell's & would let run.sh ignore INT, as the program's own & does not
-    (trap - INT && exec ./run.sh "$tmp/good.ini" "run.end=1000 s" "flow.hold=1000 s" -o "$tmp/long") \
-        > /dev/null 2> "$tmp/err" &
+    # a shell's &, or whoever started this one in the background, would let run.sh ignore INT
+    env --default-signal=INT timeout --foreground 300 ./run.sh "$tmp/good.ini" "run.end=1000 s" "flow.hold=1000 s" \
+        -o "$tmp/long" > /dev/null 2> "$tmp/err" &
     run=$!
     for _ in $(seq 100); do
         grep -q "^running" "$tmp/err" && break
