@@ -187,7 +187,8 @@ static double simulated_flux(const struct sim *s)
     for (int k = 2; k <= g->n[2]; k++)
         for (int j = 1; j <= g->n[1]; j++)
             for (int i = 1; i <= g->n[0]; i++)
-                sum += s->fluid.eps_f[2][cell(g, i, j, k)] * s->fluid.u[2][cell(g, i, j, k)];
+                sum += grid_face(s->fluid.eps, cell(g, i, j, k), g->sk) *
+                       s->fluid.u[2][cell(g, i, j, k)];
     return sum / ((double)g->n[0] * g->n[1] * (g->n[2] - 1));
 }
 

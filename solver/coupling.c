@@ -72,7 +72,7 @@ void coupling_create(struct sim *s)
     c->swing = xalloc(s->grid.total, sizeof *c->swing);
     fields_add(&s->fields,
                (struct field){"drag_swing", "1", "signs of its last wishes to change",
-                              PLACE_CELL, KIND_INT, (void **)&c->swing, FIELD_STATE});
+                              PLACE_CELL, KIND_BYTE, (void **)&c->swing, FIELD_STATE});
     fields_add(&s->fields,
                (struct field){"drag", "N", "drag force on the grain", PLACE_GRAIN, KIND_VEC3,
                               (void **)&c->drag, FIELD_STATE | FIELD_OUTPUT});
@@ -204,8 +204,6 @@ void coupling_volume(struct sim *s)
     if (c->calls == 0) {
         memcpy(f->eps_old, f->eps, g->total * sizeof *f->eps);
     }
-    for (int a = 0; a < 3; a++)
-        grid_face_mean(g, &s->domain, f->eps, a, f->eps_f[a]);
     sense_squares(s);
     c->forces.due = true;
 }

@@ -66,7 +66,8 @@ struct coupling {
     vec3 *pos_load;    /* m at the last fluid step (a grain field), for the ledger's work */
     vec3 *v_ref;       /* m/s, v' */
     double *u_drag[3]; /* m/s on faces, superficial, at which kappa was taken (state) */
-    int *swing; /* how it wished to change the last time, two bits for each direction (state) */
+    unsigned char
+        *swing; /* how it wished to change the last time, two bits for each direction (state) */
     double *eps;      /* fluid fraction, ghosts filled; two-way that of the fluid */
     double *eps_seen; /* D eps, as the grains see it; eps itself where D is the identity */
     double

@@ -10,16 +10,16 @@ static void drag_velocities(struct sim *s)
 {
     const struct fluid *const f = &s->fluid;
     enum { UP = 1, DOWN = 2, BOTH = 3 };
-    int *const swing = s->coupling.swing;
+    unsigned char *const swing = s->coupling.swing;
     for (int a = 0; a < 3; a++) {
         double *const u = s->coupling.u_drag[a];
 #pragma omp parallel for schedule(static)
-        for (size_t c = 0; c < s->grid.total; c++) {
-            const double wish = f->eps_f[a][c] * f->u[a][c] - u[c];
+        for (int c = s->grid.s[a]; c < (int)s->grid.total; c++) {
+            const double wish = grid_face(f->eps, c, s->grid.s[a]) * f->u[a][c] - u[c];
             const int now = wish > 0.0 ? UP : wish < 0.0 ? DOWN : 0;
             const int before = swing[c] >> 2 * a & BOTH;
             u[c] += (now | before) == BOTH ? 0.5 * wish : wish;
-            swing[c] ^= (before ^ now) << 2 * a;
+            swing[c] = (unsigned char)(swing[c] ^ (before ^ now) << 2 * a);
         }
     }
 }
@@ -140,7 +140,6 @@ static void spread_drag(struct sim *s)
 static void drag_on_faces(struct sim *s)
 {
     struct fluid *const f = &s->fluid;
-    const size_t total = s->grid.total;
     const double inverse = 1.0 / s->grid.volume;
     for (int a = 0; a < 3; a++) {
         grid_ghosts(&s->grid, &s->domain, f->drag[a]);
@@ -148,8 +147,8 @@ static void drag_on_faces(struct sim *s)
         grid_face_mean(&s->grid, &s->domain, f->drag[a], a, f->drag[a]);
         grid_face_mean(&s->grid, &s->domain, f->drag_s[a], a, f->drag_s[a]);
 #pragma omp parallel for schedule(static)
-        for (size_t k = 0; k < total; k++) {
-            const double m = f->eps_f[a][k];
+        for (int k = s->grid.s[a]; k < (int)s->grid.total; k++) {
+            const double m = grid_face(f->eps, k, s->grid.s[a]);
             const double scale = (f->whole_pressure ? m : m * m) * inverse;
             f->drag[a][k] *= scale;
             f->drag_s[a][k] *= scale;
@@ -195,7 +194,7 @@ static void see_flow(struct sim *s)
     const struct grid *const g = &s->grid;
     const bool whole = f->whole_pressure;
     for (int a = 0; a < 3; a++) {
-        const double *const m = f->eps_f[a], *const u = f->u[a], *const G = f->stress[a];
+        const double *const u = f->u[a], *const G = f->stress[a], *const eps = f->eps;
         const int step = g->s[a];
 #pragma omp parallel for schedule(static)
         for (int k = 1; k <= g->n[2]; k++)
@@ -205,8 +204,10 @@ static void see_flow(struct sim *s)
                     const double e = c->eps[at];
                     const double lo = whole ? 1.0 : 0.5 * (e + c->eps[at - step]);
                     const double hi = whole ? 1.0 : 0.5 * (e + c->eps[up]);
-                    c->seen[a][at] =
-                        0.5 * (lo * (m[at] * u[at]) + hi * (m[up] * u[up])) / (e * e);
+                    c->seen[a][at] = 0.5 *
+                                     (lo * (grid_face(eps, at, step) * u[at]) +
+                                      hi * (grid_face(eps, up, step) * u[up])) /
+                                     (e * e);
                     c->K[a][at] = whole ? 0.0 : 0.5 * (G[at] + G[up]);
                 }
         if (c->diffuse)
@@ -251,7 +252,7 @@ static double lost_in_layer(const struct sim *s, int a, int k)
             const double part = open && (n == 1 || n == g->n[a] + 1) ? 0.5 : 1.0;
             double lost = f->drag[a][at] * f->u[a][at] - f->drag_s[a][at];
             if (!f->whole_pressure)
-                lost += (1.0 - f->eps_f[a][at]) * f->stress[a][at];
+                lost += (1.0 - grid_face(f->eps, at, g->s[a])) * f->stress[a][at];
             sum += part * lost;
         }
     return g->volume * sum;

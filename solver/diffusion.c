@@ -93,7 +93,7 @@ static double diagonal(const struct sim *s, const struct momentum *m, int a, int
     const double rate = f->rho / f->dt;
     if (f->bare)
         return rate;
-    const double eps = f->eps_f[a][c];
+    const double eps = grid_face(f->eps, c, s->grid.s[a]);
     return m->form == FORM_A ? rate + f->drag[a][c] / eps : rate * eps + f->drag[a][c];
 }
 
@@ -210,7 +210,8 @@ static double scale_of(const struct sim *s, const struct momentum *m, int a, int
     double sum = 0.0;
     for (int b = 0; b < 3; b++)
         sum += m->skip[b] ? 0.0 : 1.0 / (g->h[b] * g->h[b]);
-    const double eps = m->form == FORM_A || s->fluid.bare ? 1.0 : s->fluid.eps_f[a][c];
+    const double eps =
+        m->form == FORM_A || s->fluid.bare ? 1.0 : grid_face(s->fluid.eps, c, g->s[a]);
     return 1.0 / (diagonal(s, m, a, c) + eps * s->fluid.mu * sum);
 }
 

@@ -39,15 +39,15 @@ static void divergence_row(const struct sim *s, int j, int k, double *restrict o
             out[i] = (u[i + 1] - u[i]) * x + (v[i + sj] - v[i]) * y + (w[i + sk] - w[i]) * z;
         return;
     }
-    const double *const restrict mx = f->eps_f[0] + c, *const restrict my = f->eps_f[1] + c;
-    const double *const restrict mz = f->eps_f[2] + c;
-    const double *const restrict eps = (f->rate ? f->rate : f->eps) + c;
+    const double *const restrict e = f->eps + c;
+    const double *const restrict change = (f->rate ? f->rate : f->eps) + c;
     const double *const restrict old = f->eps_old + c;
     const double now = f->rate ? 1.0 : 1.0 / f->dt, before = f->rate ? 0.0 : 1.0;
     for (int i = 1; i <= n; i++)
-        out[i] = (eps[i] - before * old[i]) * now + (mx[i + 1] * u[i + 1] - mx[i] * u[i]) * x +
-                 (my[i + sj] * v[i + sj] - my[i] * v[i]) * y +
-                 (mz[i + sk] * w[i + sk] - mz[i] * w[i]) * z;
+        out[i] = (change[i] - before * old[i]) * now +
+                 (grid_face(e, i + 1, 1) * u[i + 1] - grid_face(e, i, 1) * u[i]) * x +
+                 (grid_face(e, i + sj, sj) * v[i + sj] - grid_face(e, i, sj) * v[i]) * y +
+                 (grid_face(e, i + sk, sk) * w[i + sk] - grid_face(e, i, sk) * w[i]) * z;
 }
 
 /* Largest velocity of a row over h, 1/s; NAN if one is not finite. */

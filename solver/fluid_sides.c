@@ -74,7 +74,7 @@ static void normal_component(struct sim *s, int side, double t)
     const struct grid *const g = &s->grid;
     const int a = side / 2, end = side % 2, b = beside(a, 0), d = beside(a, 1);
     double *const u = s->fluid.u[a];
-    const double *const m = s->fluid.eps_f[a];
+    const double *const eps = s->fluid.eps;
     const enum side_kind kind = s->domain.side[side].kind;
     double given = 0.0;
     if (side_open(&s->domain, side))
@@ -88,7 +88,7 @@ static void normal_component(struct sim *s, int side, double t)
         for (int j = 1; j <= g->n[b]; j++) {
             const int face = at_layer(g, a, end ? g->n[a] + 1 : 1, j, k);
             const double here = part * (kind == SIDE_INFLOW ? profile(s, b, j) : 1.0);
-            u[face] = m ? here / m[face] : here;
+            u[face] = eps ? here / grid_face(eps, face, g->s[a]) : here;
         }
     }
 }
@@ -188,7 +188,7 @@ void fluid_ghosts_of_change(const struct sim *s, int a, double *du)
 static double balance_on_face(const struct sim *s, int a, int face, bool flows)
 {
     const struct fluid *const f = &s->fluid;
-    const double share = f->whole_pressure ? 1.0 : f->eps_f[a][face];
+    const double share = f->whole_pressure ? 1.0 : grid_face(f->eps, face, s->grid.s[a]);
     return flows && share > 0.0
                ? (f->drag[a][face] * f->u[a][face] - f->drag_s[a][face]) / share
                : 0.0;

@@ -110,11 +110,9 @@ bool fluid_state_create(struct sim *s, struct scene *scene)
     for (size_t c = 0; c < s->grid.total; c++)
         f->eps[c] = f->eps_old[c] = 1.0;
     for (int a = 0; a < 3; a++) {
-        double **const faces[] = {&f->eps_f[a], &f->drag[a], &f->drag_s[a], &f->stress[a]};
+        double **const faces[] = {&f->drag[a], &f->drag_s[a], &f->stress[a]};
         for (size_t i = 0; i < sizeof faces / sizeof faces[0]; i++)
             *faces[i] = grid_field(&s->grid);
-        for (size_t c = 0; c < s->grid.total; c++)
-            f->eps_f[a][c] = 1.0;
     }
     register_porosity(s);
     coupling_create(s);
@@ -131,7 +129,7 @@ void fluid_state_free(struct sim *s)
     xfree(f->eps);
     xfree(f->eps_old);
     for (int a = 0; a < 3; a++) {
-        void *const faces[] = {f->u[a], f->eps_f[a], f->drag[a], f->drag_s[a], f->stress[a]};
+        void *const faces[] = {f->u[a], f->drag[a], f->drag_s[a], f->stress[a]};
         for (size_t i = 0; i < sizeof faces / sizeof faces[0]; i++)
             xfree(faces[i]);
     }

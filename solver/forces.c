@@ -84,8 +84,8 @@ static void velocity_of_cells(struct sim *s)
             for (int j = 1; j <= g->n[1]; j++)
                 for (int at = cell(g, 1, j, k); at <= cell(g, g->n[0], j, k); at++)
                     out[at] = 0.5 *
-                              (f->eps_f[a][at] * f->u[a][at] +
-                               f->eps_f[a][at + step] * f->u[a][at + step]) /
+                              (grid_face(f->eps, at, step) * f->u[a][at] +
+                               grid_face(f->eps, at + step, step) * f->u[a][at + step]) /
                               f->eps[at];
         grid_ghosts(g, &s->domain, out);
     }

@@ -44,6 +44,12 @@ void grid_ghosts(const struct grid *g, const struct domain *d, double *field);
 void grid_face_mean(const struct grid *g, const struct domain *dom, const double *cells, int a,
                     double *faces);
 
+/* The same of one face: of direction a for step = g->s[a]. */
+static inline double grid_face(const double *cells, int c, int step)
+{
+    return 0.5 * (cells[c] + cells[c - step]);
+}
+
 /* The entries [lo, hi) of a field that this thread of a team owns: whole layers. */
 void grid_slab(const struct grid *g, int *lo, int *hi);
 

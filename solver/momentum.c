@@ -62,15 +62,18 @@ INLINE double carried(enum convection scheme, double um, double u0, double u1, d
 }
 
 /* The rows that a flux is made of: u before, below, above and beyond the face, and the
- * velocities beside it with their fluid fractions. */
+ * velocities beside it with the fluid fractions above and, `step` before, below them. */
 struct flux {
     const double *um, *u0, *u1, *u2, *v1, *v2, *e1, *e2;
+    int step;
     double scale; /* rho/(2 h) */
 };
 
 INLINE double volume(const struct flux *f, bool porous, int i)
 {
-    return porous ? f->e1[i] * f->v1[i] + f->e2[i] * f->v2[i] : f->v1[i] + f->v2[i];
+    return porous ? grid_face(f->e1, i, f->step) * f->v1[i] +
+                        grid_face(f->e2, i, f->step) * f->v2[i]
+                  : f->v1[i] + f->v2[i];
 }
 
 INLINE double flux_one(const struct flux *f, bool porous, enum convection scheme, int i,
@@ -121,13 +124,14 @@ static struct flux flux_rows(const struct sim *s, int a, int b, int j, int k, bo
                      .v1 = v + near,
                      .v2 = v + far,
                      .scale = 0.5 * s->fluid.rho / g->h[b]};
-    if (porous) {
-        f.e1 = s->fluid.eps_f[b] + c + near;
-        f.e2 = s->fluid.eps_f[b] + c + far;
+    const int at = b == 0 ? 1 : b == 1 ? j : k;
+    if (porous) { /* face 0 is face n */
+        f.step = sb;
+        f.e1 = s->fluid.eps + c + (a == b && at == 0 ? n * sb : near);
+        f.e2 = s->fluid.eps + c + far;
     }
     if (b == 0)
         return f; /* its ends: flux_ends */
-    const int at = b == 1 ? j : k;
     if (at == 0)
         f.um = s->domain.periodic[b] ? u + (n - 1) * sb : u;
     if (at == n)
@@ -143,8 +147,8 @@ static void flux_ends(const struct sim *s, const struct flux *f, bool porous,
     const int n = s->grid.n[0];
     const double *const u = f->u0;
     if (s->domain.periodic[0]) {
-        out[0] = flux_one(f, porous, scheme, 0, u[n - 1], u[2]);
         out[n] = flux_one(f, porous, scheme, n, u[n - 1], u[2]);
+        out[0] = out[n];
     } else if (a == 0) {
         out[n] = flux_one(f, porous, scheme, n, u[n - 1], u[n + 1]);
     } else { /* on the sides themselves */

@@ -92,7 +92,8 @@ static void porous_open(const struct sim *s, const struct momentum *m, int a, do
         for (int k = 1; k <= g->n[d]; k++)
             for (int j = 1; j <= g->n[b]; j++) {
                 const int c = (end ? g->n[a] + 1 : 1) * g->s[a] + j * g->s[b] + k * g->s[d];
-                const double eps = s->fluid.eps_f[a][c], *const u = s->fluid.u[a];
+                const double eps = grid_face(s->fluid.eps, c, g->s[a]), *const u =
+                                                                            s->fluid.u[a];
                 const double spread = diffusion_open(s, m, m->form, a, end, c, u);
                 visc[c] = diffusion_open(s, m, FORM_A, a, end, c, u);
                 out[c] = eps * momentum_back(s, a, end, c) + (m->implicit         ? 0.0

@@ -58,7 +58,8 @@ static void predict_open(const struct sim *s, const struct predict *q, struct op
 {
     const struct fluid *const f = &s->fluid;
     const int c = o.c, a = o.a, sa = s->grid.s[a];
-    const double rate = f->rho / f->dt, m = f->eps_f[a][c], A = rate * m + f->drag[a][c];
+    const double rate = f->rho / f->dt, m = grid_face(f->eps, c, sa),
+                 A = rate * m + f->drag[a][c];
     const double m_old = 0.5 * (f->eps_old[c] + f->eps_old[c - sa]);
     const double R = q->R[c], g = f->whole_pressure ? 1.0 : m;
     q->x[c] = (rate * m_old * f->u[a][c] + q->now * R + q->before * q->old[c] -
@@ -149,7 +150,7 @@ static void correct_row(struct sim *s, int a, const double *w, const double *pre
 static void correct_open(struct sim *s, const double *w, const double *dp, struct open_face o)
 {
     const struct fluid *const f = &s->fluid;
-    const double step = w ? w[o.c] / f->eps_f[o.a][o.c] : f->dt / f->rho;
+    const double step = w ? w[o.c] / grid_face(f->eps, o.c, s->grid.s[o.a]) : f->dt / f->rho;
     f->u[o.a][o.c] -= step * fluid_gradient(s, dp, o.a, o.end, o.c);
 }
 
@@ -216,7 +217,7 @@ static void stress_on_side(struct sim *s, int side, const double *dp)
     const double viscous = s->coupling.forces.viscous, pressure = s->coupling.forces.pressure;
     for (int n = 0; n < open_faces(s, a); n++) {
         const int c = open_at(s, a, end, n).c;
-        const double g = f->whole_pressure ? 1.0 : f->eps_f[a][c];
+        const double g = f->whole_pressure ? 1.0 : grid_face(f->eps, c, s->grid.s[a]);
         double *const G = &f->stress[a][c];
         if (open)
             *G = viscous * *G - pressure * (fluid_gradient(s, f->p, a, end, c) +
@@ -265,7 +266,7 @@ static void sums_of(const struct sim *s, int a, const double *w, double *flow, d
     for (int row = 0; row < rows; row++) {
         const int at = cell(g, 0, row % g->n[1] + 1, row / g->n[1] + 1);
         for (int i = 1; i <= g->n[0]; i++) {
-            const double m = s->fluid.bare ? 1.0 : s->fluid.eps_f[a][at + i];
+            const double m = s->fluid.bare ? 1.0 : grid_face(s->fluid.eps, at + i, g->s[a]);
             part[2 * row] += m * s->fluid.u[a][at + i];
             part[2 * row + 1] += w ? w[at + i] : s->fluid.dt / s->fluid.rho;
         }
@@ -287,8 +288,8 @@ static void push_rows(struct sim *s, int a, const double *w, double push)
     for (int row = 0; row < rows; row++) {
         const int at = cell(g, 0, row % g->n[1] + 1, row / g->n[1] + 1);
         for (int c = at + 1; c <= at + g->n[0]; c++)
-            s->fluid.u[a][c] +=
-                push * (w ? w[c] / s->fluid.eps_f[a][c] : s->fluid.dt / s->fluid.rho);
+            s->fluid.u[a][c] += push * (w ? w[c] / grid_face(s->fluid.eps, c, g->s[a])
+                                          : s->fluid.dt / s->fluid.rho);
     }
 }
 

@@ -54,8 +54,9 @@ double sample_porosity(const struct sim *s, vec3 x)
     return s->fluid.eps ? interpolate(s, s->fluid.eps, -1, x) : 1.0;
 }
 
-/* Mean of a layer of cells or faces; times `m` where it is not NULL. */
-static double layer(const struct sim *s, const double *field, const double *m, int axis, int i)
+/* Mean of a layer of cells or faces; of faces times the fluid fraction `eps` where it is not NULL. */
+static double layer(const struct sim *s, const double *field, const double *eps, int axis,
+                    int i)
 {
     const struct grid *const g = &s->grid;
     const int b = (axis + 1) % 3, d = (axis + 2) % 3;
@@ -64,20 +65,20 @@ static double layer(const struct sim *s, const double *field, const double *m, i
         double row = 0.0;
         for (int j = 1; j <= g->n[b]; j++) {
             const int c = i * g->s[axis] + j * g->s[b] + k * g->s[d];
-            row += m ? m[c] * field[c] : field[c];
+            row += eps ? grid_face(eps, c, g->s[axis]) * field[c] : field[c];
         }
         sum += row;
     }
     return sum / ((double)g->n[b] * g->n[d]);
 }
 
-static double plane(const struct sim *s, const double *field, const double *m, int axis,
+static double plane(const struct sim *s, const double *field, const double *eps, int axis,
                     bool face, double at)
 {
     const struct grid *const g = &s->grid;
     const struct between b = find(at, g->h[axis], face ? 0.0 : 0.5, g->n[axis] + 1);
-    const double low = b.part < 1.0 ? layer(s, field, m, axis, b.lower) : 0.0;
-    const double high = b.part > 0.0 ? layer(s, field, m, axis, b.lower + 1) : 0.0;
+    const double low = b.part < 1.0 ? layer(s, field, eps, axis, b.lower) : 0.0;
+    const double high = b.part > 0.0 ? layer(s, field, eps, axis, b.lower + 1) : 0.0;
     return (1.0 - b.part) * low + b.part * high;
 }
 
@@ -88,7 +89,7 @@ double plane_pressure(const struct sim *s, int axis, double at)
 
 double plane_flux(const struct sim *s, int axis, double at)
 {
-    return plane(s, s->fluid.u[axis], s->fluid.eps_f[axis], axis, true, at);
+    return plane(s, s->fluid.u[axis], s->fluid.eps, axis, true, at);
 }
 
 double plane_porosity(const struct sim *s, int axis, double at)

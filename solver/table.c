@@ -30,6 +30,8 @@ size_t kind_size(enum kind kind)
         return sizeof(double);
     case KIND_INT:
         return sizeof(int);
+    case KIND_BYTE:
+        return 1;
     case KIND_QUAT:
         return sizeof(struct quat);
     default:

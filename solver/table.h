@@ -17,7 +17,13 @@ enum place {
     PLACE_FACE_Z
 };
 
-enum kind { KIND_REAL, KIND_INT, KIND_VEC3, KIND_QUAT };
+enum kind {
+    KIND_REAL,
+    KIND_INT,
+    KIND_VEC3,
+    KIND_QUAT,
+    KIND_BYTE
+}; /* bytes: state only, not output */
 
 enum { FIELD_OUTPUT = 1, FIELD_STATE = 2 }; /* written at output times; needed by a restart */
 

@@ -91,7 +91,8 @@ static void check_layers(int below)
     }
     const int c = cell(&s->grid, 2, 1, 4);
     /* Ergun's inertial part is 1e-8 of it */
-    check_rel(s->fluid.u[2][c] * s->fluid.eps_f[2][c], U, 1e-7, "two layers: flux");
+    check_rel(s->fluid.u[2][c] * grid_face(s->fluid.eps, c, s->grid.sk), U, 1e-7,
+              "two layers: flux");
     check(worst < 1e-8, "two layers, %d of %d cells coarse: heads within %.2g", below, n,
           worst);
     sim_free(s);
@@ -132,7 +133,7 @@ static void check_ergun(double gradient)
         step(s);
     const int c = cell(&s->grid, 1, 1, 3);
     char *const what = xprintf("Ergun by heads, Re %.3g: flux", rho * exact * d / mu);
-    check_rel(s->fluid.u[2][c] * s->fluid.eps_f[2][c], exact, 1e-8, what);
+    check_rel(s->fluid.u[2][c] * grid_face(s->fluid.eps, c, s->grid.sk), exact, 1e-8, what);
     xfree(what);
     sim_free(s);
     xfree(sides);
@@ -269,7 +270,7 @@ static void check_direction(int a, const char *keys, double K)
         step(s);
     const double slope = slope_of(a);
     const int c = cell(&s->grid, 2, 3, 2);
-    check_rel(s->fluid.u[a][c] * s->fluid.eps_f[a][c], K * slope, 1e-6,
+    check_rel(s->fluid.u[a][c] * grid_face(s->fluid.eps, c, s->grid.s[a]), K * slope, 1e-6,
               "flux along one direction");
     const double force[3] = {s->coupling.to_grains.x, s->coupling.to_grains.y,
                              s->coupling.to_grains.z};

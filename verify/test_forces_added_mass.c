@@ -69,7 +69,7 @@ static void test_handed_over(double rho_p)
         for (int j = 1; j <= g->n[1]; j++)
             for (int i = 1; i <= g->n[0]; i++) {
                 const int c = cell(g, i, j, k);
-                fluid += rho * g->volume * s->fluid.eps_f[0][c] * s->fluid.u[0][c];
+                fluid += rho * g->volume * grid_face(s->fluid.eps, c, 1) * s->fluid.u[0][c];
             }
     /* relative to a sum that is small against its parts: the sphere coasts */
     check(s->ledger.handover_error < 1e-10, "%g kg/m3 shot: handed over but for %.1e", rho_p,

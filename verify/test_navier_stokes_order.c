@@ -234,10 +234,6 @@ static void mms_fill(struct sim *s, int n)
                 f->p[c] = mms_p(x, y);
                 for (int a = 0; a < 3; a++) {
                     const double xf = a == 0 ? x - half : x, yf = a == 1 ? y - half : y;
-                    const double lower = a == 0   ? mms_eps(x - 2.0 * half, y)
-                                         : a == 1 ? mms_eps(x, y - 2.0 * half)
-                                                  : f->eps[c];
-                    f->eps_f[a][c] = 0.5 * (f->eps[c] + lower);
                     f->drag[a][c] = mms_drag(xf, yf);
                     f->drag_s[a][c] = a < 2 && k == 1 ? mms_source(a, xf, yf) : 0.0;
                     f->u[a][c] = a < 2 ? mms_u(a, xf, yf) : 0.0;

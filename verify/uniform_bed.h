@@ -59,7 +59,7 @@ static inline void check_driven(double re, double rate_dt, int steps)
     char *const what =
         xprintf("driven, Re %g, dt x drag rate %g: superficial velocity", re, rate_dt);
     const int c = cell(&s->grid, 2, 1, 3);
-    check_rel(s->fluid.u[2][c] * s->fluid.eps_f[2][c], U, 1e-6, what);
+    check_rel(s->fluid.u[2][c] * grid_face(s->fluid.eps, c, s->grid.sk), U, 1e-6, what);
     xfree(what);
     xfree(text);
     sim_free(s);

@@ -206,7 +206,7 @@ static double conductivity_of(struct sim *s, int a)
         for (int j = 1; j <= face_last(g, a, 1); j++)
             for (int i = 1; i <= face_last(g, a, 0); i++) {
                 const int c = cell(g, i, j, k);
-                const double m = f->eps_f[a][c], B = f->drag[a][c];
+                const double m = grid_face(f->eps, c, g->s[a]), B = f->drag[a][c];
                 K[c] = B > 0.0 ? m * m / B : is_given ? given : (double)INFINITY;
                 least = fmin(least, K[c]);
             }
@@ -264,7 +264,7 @@ static double carried(const struct sim *s, int a, int c)
     const double drive = a == 0   ? s->flow.gradient.x
                          : a == 1 ? s->flow.gradient.y
                                   : s->flow.gradient.z;
-    const double m = f->eps_f[a][c];
+    const double m = grid_face(f->eps, c, s->grid.s[a]);
     const double by_grains = f->drag[a][c] > 0.0 ? m * f->drag_s[a][c] / f->drag[a][c] : 0.0;
     return by_grains + f->work->conductivity[a][c] * drive;
 }
@@ -300,7 +300,7 @@ static void set_velocity(struct sim *s, const double *p)
             for (int j = 1; j <= face_last(g, a, 1); j++)
                 for (int i = 1; i <= face_last(g, a, 0); i++) {
                     const int c = cell(g, i, j, k), n = a == 0 ? i : a == 1 ? j : k;
-                    f->u[a][c] = flux(s, p, a, n, c) / f->eps_f[a][c];
+                    f->u[a][c] = flux(s, p, a, n, c) / grid_face(f->eps, c, g->s[a]);
                 }
 }
 
@@ -364,8 +364,9 @@ static double change(const struct sim *s)
     const struct fluid *const f = &s->fluid;
     double most = 0.0, fastest = 1e-12 * f->work->least * f->rho * f->work->gravity;
     for (int a = 0; a < 3; a++)
-        for (size_t c = 0; c < s->grid.total; c++) {
-            const double off = f->eps_f[a][c] * f->u[a][c] - s->coupling.u_drag[a][c];
+        for (int c = s->grid.s[a]; c < (int)s->grid.total; c++) {
+            const double off =
+                grid_face(f->eps, c, s->grid.s[a]) * f->u[a][c] - s->coupling.u_drag[a][c];
             most = fmax(most, fmax(fabs(f->u[a][c] - f->work->u_before[a][c]), fabs(off)));
             fastest = fmax(fastest, fabs(f->u[a][c]));
             if (f->drag[a][c] > 0.0)
@@ -402,12 +403,10 @@ void fluid_step(struct sim *s)
     } while (changed > w->picard);
     memcpy(f->p, w->p_new, bytes);
     for (int a = 0; a < 3; a++)
-        for (size_t c = 0; c < g->total; c++)
-            f->stress[a][c] = f->eps_f[a][c] > 0.0
-                                  ? s->coupling.forces.pressure *
-                                        (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) /
-                                        f->eps_f[a][c]
-                                  : 0.0;
+        for (int c = g->s[a]; c < (int)g->total; c++)
+            f->stress[a][c] = s->coupling.forces.pressure *
+                              (f->drag[a][c] * f->u[a][c] - f->drag_s[a][c]) /
+                              grid_face(f->eps, c, g->s[a]);
     fluid_guard(s, false);
 }
 

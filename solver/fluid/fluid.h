@@ -15,16 +15,15 @@
 struct sim;
 
 struct fluid {
-    bool exists;       /* false: the `none` answer */
-    bool on;           /* it flows (t >= flow.start) */
-    double rho, mu;    /* kg/m3, Pa s */
-    double dt;         /* s, fluid step */
-    double *u[3];      /* m/s, interstitial velocity on faces (low face of the cell) */
-    double *p;         /* Pa at centres, without the hydrostatic part */
-    double *eps;       /* fluid fraction at centres, ghosts filled */
+    bool exists;    /* false: the `none` answer */
+    bool on;        /* it flows (t >= flow.start) */
+    double rho, mu; /* kg/m3, Pa s */
+    double dt;      /* s, fluid step */
+    double *u[3];   /* m/s, interstitial velocity on faces (low face of the cell) */
+    double *p;      /* Pa at centres, without the hydrostatic part */
+    double *eps;    /* fluid fraction at centres, ghosts filled; on a face, below eps_f, that of
+                          the two cells (grid_face): on the boundary that of the one inside */
     double *eps_old;   /* the same at the step before */
-    double *eps_f[3];  /* fluid fraction on faces: mean of the two cells; that of the one cell
-                          inside on a face of the boundary */
     double *drag[3];   /* kg/(m3 s), B on faces: the fluid feels -(B u - S) per volume, */
     double *drag_s[3]; /* N/m3, S = B v_s with the grains' velocity */
     double *stress[3]; /* N/m3 on faces, G = -grad p + div tau: fluid gets eps_f G, grains the
