@@ -3,6 +3,7 @@
  * same axis of height. The viewer looks along y; the nearest grains are drawn last. Colour is
  * speed, or the species where all is at rest. Walls as of picture_walls.h. */
 #include "picture_shapes.h"
+#include "picture_speed.h"
 #include "picture_walls.h"
 
 #include <math.h>
@@ -10,7 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_GRAINS = 20000, LEFT = 85, GAP = 60, TOP = 95, BOTTOM = 165, PROFILE = 300 };
+enum {
+    MOST_GRAINS = 20000,
+    LEFT = 85,
+    GAP = 60,
+    TOP = 95,
+    BOTTOM = 165,
+    PROFILE = 300,
+    LEAST_WIDE = 560
+};
 
 struct bed {
     size_t n[2], times, shown[2];
@@ -29,13 +38,6 @@ struct bed {
     int x0, z0;     /* pixels: where the panels begin */
     int across, up; /* pixels: size of a panel */
 };
-
-enum { SPEED_STOPS = 4 };
-static const struct {
-    double at;
-    const char *colour;
-} speed_stop[SPEED_STOPS] = {
-    {0.0, "#e2e9f0"}, {0.3, "#9cc3e0"}, {0.65, "#4288c4"}, {1.0, "#0c3a78"}};
 
 static double speed(const double *vel, size_t i)
 {
@@ -218,30 +220,13 @@ static void set_margins(const struct picture *p, const struct bed *b, int from, 
             (double)BOTTOM / p->height, (double)(BOTTOM + b->up) / p->height);
 }
 
-/* Between ticks of a short scale: 1, 2 or 5 times a power of ten, four or five of them. */
-static double round_step(double most)
-{
-    const double power = pow(10.0, floor(log10(0.3 * most)));
-    const double part = 0.3 * most / power;
-    return power * (part >= 5.0 ? 5.0 : part >= 2.0 ? 2.0 : 1.0);
-}
-
 /* What the colours mean: a scale of speed, or the names of the species; below the first panel.
  */
 static void set_colours(const struct run_file *r, const struct picture *p, const struct bed *b)
 {
     FILE *const to = p->gnuplot;
     if (b->fastest > 0.0) {
-        fprintf(to,
-                "set palette defined (0 '%s', 0.3 '%s', 0.65 '%s', 1 '%s')\n"
-                "set cbrange [0:%g]\nset format cb '%%g'\nset cbtics %g scale 0.4\n"
-                "set colorbox horizontal user origin screen %g,%g size screen %g,%g\n"
-                "set label 3 'speed, mm/s%s' at screen %g,%g left\n",
-                speed_stop[0].colour, speed_stop[1].colour, speed_stop[2].colour,
-                speed_stop[3].colour, 1e3 * b->fastest, round_step(1e3 * b->fastest),
-                (double)LEFT / p->width, 62.0 / p->height, 260.0 / p->width, 14.0 / p->height,
-                b->n[b->panels - 1] >= 100 ? " (the fastest 1 % lie above the scale)" : "",
-                (LEFT + 275.0) / p->width, 69.0 / p->height);
+        speed_bar(p, LEFT, 62, b->fastest, b->n[b->panels - 1] >= 100);
         return;
     }
     char *const names = run_text(r, run_variable(r, "grain_species"), "flag_meanings");
@@ -265,30 +250,6 @@ static void set_colours(const struct run_file *r, const struct picture *p, const
     xfree(names);
 }
 
-/* "#9cc3e0" to three numbers. */
-static void read_colour(const char *hex, double out[3])
-{
-    unsigned int rgb[3] = {0};
-    sscanf(hex, "#%2x%2x%2x", &rgb[0], &rgb[1], &rgb[2]);
-    for (int a = 0; a < 3; a++)
-        out[a] = rgb[a];
-}
-
-/* The colour of a speed between 0 and 1, as the palette has it. */
-static void speed_colour(double x, double out[3])
-{
-    double low[3], high[3];
-    int k = 1;
-    while (k < SPEED_STOPS - 1 && x > speed_stop[k].at)
-        k++;
-    const double from = speed_stop[k - 1].at,
-                 part = (fmin(x, 1.0) - from) / (speed_stop[k].at - from);
-    read_colour(speed_stop[k - 1].colour, low);
-    read_colour(speed_stop[k].colour, high);
-    for (int a = 0; a < 3; a++)
-        out[a] = low[a] + part * (high[a] - low[a]);
-}
-
 /* Grains that are no spheres, as an image: x, z in mm, red, green, blue. */
 static void send_shapes(FILE *to, const struct bed *b, int k)
 {
@@ -297,8 +258,7 @@ static void send_shapes(FILE *to, const struct bed *b, int k)
         if (b->fastest > 0.0)
             speed_colour(speed(b->vel[k], i) / b->fastest, &colour[3 * i]);
         else
-            read_colour(picture_colour[(int)b->species[k][i] % PICTURE_COLOURS],
-                        &colour[3 * i]);
+            hex_colour(picture_colour[(int)b->species[k][i] % PICTURE_COLOURS], &colour[3 * i]);
     const struct shapes_view v = {.n = b->n[k],
                                   .pos = b->pos[k],
                                   .radius = b->radius[k],
@@ -329,8 +289,10 @@ static void draw_grains(const struct picture *p, const struct bed *b, int k)
     if (b->walls[k].n > 0)
         picture_walls_send(to, name, &b->walls[k], PICTURE_CUT * b->size[1]);
     set_margins(p, b, b->x0 + k * panel_step(b), b->across);
-    fprintf(to, "set title 't = %.4g s' font ',14'\nset xrange [%.8g:%.8g]\nplot ",
-            b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0]);
+    fprintf(to,
+            "set title 't = %.4g s' font ',14'\nset xrange [%.8g:%.8g]\nset xtics %g\nplot ",
+            b->time[b->shown[k]], 1e3 * b->low[0], 1e3 * b->high[0],
+            tick_step(1e3 * b->low[0], 1e3 * b->high[0], b->across));
     if (b->walls[k].n > 0)
         picture_walls_behind(to, name);
     if (b->shaped) /* the second plot draws nothing but has a scale of colours */
@@ -369,8 +331,8 @@ static void draw(const struct run_file *r, const struct bed *b)
 {
     const int width =
         LEFT + b->panels * panel_step(b) + (b->profile ? 20 + PROFILE + 30 : -GAP + 30);
-    struct picture p =
-        picture_open(r, "bed.png", width < 520 ? 520 : width, TOP + b->up + BOTTOM);
+    struct picture p = picture_open(r, "bed.png", width < LEAST_WIDE ? LEAST_WIDE : width,
+                                    TOP + b->up + BOTTOM);
     FILE *const to = p.gnuplot;
     char *const scene = picture_scene(r);
     char *const head = xprintf("%s: %zu grain%s, from the side", scene, b->n[b->panels - 1],

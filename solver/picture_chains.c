@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEFT = 85, TOP = 80, BOTTOM = 120, MOST_LINES = 30000 };
+enum { LEFT = 85, TOP = 80, BOTTOM = 145, MOST_LINES = 30000 };
 
 struct chains {
     size_t n, first, contacts; /* grains; rows of the last output */
