@@ -38,4 +38,13 @@ for j in 1 $(nproc); do
 done
 bench/scaling.sh "${1:-}"
 bench/peers.sh "${1:-}"
+echo
+echo "Grains that are no spheres"
+bench/cubes.sh "${1:-}" || true
+if [ "${1:-}" = quick ]; then
+    bench/clumps.sh 1000 1000 10000
+else
+    bench/clumps.sh
+fi
+bench/superquadrics.sh || true
 bench/dpmfoam.sh "${1:-}"

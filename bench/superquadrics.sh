@@ -38,10 +38,15 @@ settle_energy = 1e-4
 [output]
 bed = end
 END
-    OMP_NUM_THREADS=1 "$silt" "$tmp/$1.ini" -o "$tmp/$1" > "$tmp/log" 2>&1 ||
+    OMP_NUM_THREADS=1 timeout "${LIMIT:-300}" "$silt" "$tmp/$1.ini" -o "$tmp/$1" > "$tmp/log" 2>&1 ||
         { tail -n 3 "$tmp/log"; exit 1; }
     printf '%-11s %8.0f grain-steps/s, %.2f contacts a grain\n' "$1" \
         "$(value "$tmp/$1" grain_steps_per_second)" "$(value "$tmp/$1" contacts_per_grain)"
 }
 bed ellipsoids "half_axes = 1 1 1.25"
 bed blocks "blockiness = 8"
+if ! command -v liggghts > /dev/null; then
+    echo "(liggghts is not installed and left out; apt-get install liggghts)"
+elif (cd "$tmp" && echo 'atom_style superquadric' | liggghts 2>&1) | grep -q 'Invalid atom style'; then
+    echo "(this LIGGGHTS is built without superquadrics, as Debian's is: nothing to time beside)"
+fi

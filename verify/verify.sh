@@ -7,6 +7,7 @@
 #   lid-driven cavities; the noise of the pressure when a grain crosses faces of cells
 #   Beverloo's 5/2 power (beverloo.sh)
 #   every law of drag: its terminal velocity, its error against measured ones, its picture
+#   grains of other shapes: long runs, packings, hoppers (dilated.sh, ellipsoids.sh, letters.sh, shape_hoppers.sh)
 #   the tests of all modules, in release builds, with every value that they compare
 #   what each scene's binary holds, and what that saves (minimal.sh); the studies
 #   pressure noise and self-disturbance of every porosity answer (coupling.sh)
@@ -106,6 +107,10 @@ value() {
     section drag_figures "Terminal velocity by every law against Brown and Lawler; pictures docs/drag_*.png" \
         verify/drag_figures.sh
     section packing "How densely spheres pack (one thread; 3 packings of 2000, 3000 poured)" verify/packing.sh
+    section dilated "Dilated polyhedra in long runs: cores of nothing, stacks of ten cubes" timeout 900 verify/dilated.sh
+    section ellipsoids "How densely ellipsoids without friction pack" timeout 900 verify/ellipsoids.sh
+    section letters "How densely letters pack" timeout 1200 verify/letters.sh
+    section shape_hoppers "Prisms and cone pairs run out of a hopper: fraction left" timeout 3600 verify/shape_hoppers.sh
     section tests "Tests of all modules" tests
     echo
     echo "What each scene's binary holds, and what that saves"
