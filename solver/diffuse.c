@@ -23,8 +23,7 @@ static inline const double *table_of(const struct transform *t)
     return t->table;
 }
 #include "transform_lanes.h"
-
-enum { LINES = 2 * LANES }; /* of one transform, side by side */
+#include "transform_lines.h"
 
 /* One direction; t is NULL where there is one cell. */
 struct direction {
@@ -72,62 +71,6 @@ static void transforms_free(struct diffuse *can)
     xfree(f);
 }
 
-static inline pack load(const double *from, int count)
-{
-    pack x = {0};
-    if (count >= LANES)
-        memcpy(&x, from, sizeof x);
-    else
-        for (int l = 0; l < count; l++)
-            x[l] = from[l];
-    return x;
-}
-
-static inline void store(double *to, pack x, int count)
-{
-    if (count >= LANES)
-        memcpy(to, &x, sizeof x);
-    else
-        for (int l = 0; l < count; l++)
-            to[l] = x[l];
-}
-
-/* Cells of lines that lie side by side, into packs or back. */
-static void beside(const struct transform *t, pack *x, double *at, int along, int lines,
-                   bool back)
-{
-    for (int g = 0; g < 2; g++)
-        for (int i = 0; i < t->n; i++) {
-            pack *const p = &x[t->slot[i] + g * t->group];
-            double *const cells = at + (long)i * along + g * LANES;
-            if (back)
-                store(cells, *p, lines - g * LANES);
-            else
-                *p = load(cells, lines - g * LANES);
-        }
-}
-
-/* Cells of lines that lie one after the other: LANES lines of LANES cells turned at a time. */
-static void behind(const struct transform *t, pack *x, double *at, int across, int lines,
-                   bool back)
-{
-    for (int g = 0; g < 2; g++)
-        for (int i0 = 0; i0 < t->n; i0 += LANES) {
-            const int cells = t->n - i0 < LANES ? t->n - i0 : LANES;
-            double *const row = at + (long)g * LANES * across + i0;
-            pack block[LANES] = {{0}};
-            for (int l = 0; back && l < cells; l++)
-                block[l] = x[t->slot[i0 + l] + g * t->group];
-            for (int l = 0; !back && l < LANES && g * LANES + l < lines; l++)
-                block[l] = load(row + (long)l * across, cells);
-            transpose(block);
-            for (int l = 0; !back && l < cells; l++)
-                x[t->slot[i0 + l] + g * t->group] = block[l];
-            for (int l = 0; back && l < LANES && g * LANES + l < lines; l++)
-                store(row + (long)l * across, block[l], cells);
-        }
-}
-
 /* Up to LINES lines of direction a, in place: cell i of line l at at[i along + l across], where one of the
  * two steps is 1. The work takes four packs a cell. */
 static void diffuse_lines(const struct direction *d, double *at, int along, int across,
@@ -135,10 +78,8 @@ static void diffuse_lines(const struct direction *d, double *at, int along, int 
 {
     const struct transform *const t = d->t;
     struct pair *const other = work + t->n;
-    if (across == 1)
-        beside(t, &work->re, at, along, lines, false);
-    else
-        behind(t, &work->re, at, across, lines, false);
+    const struct places cells = places_of_cells(t);
+    lines_move(&cells, t->n, &work->re, at, along, across, lines, false);
     struct pair *const modes = forward(t, work, other);
     pack *const of = &modes->re;
     for (int k = 0; k < t->n; k++) {
@@ -146,10 +87,7 @@ static void diffuse_lines(const struct direction *d, double *at, int along, int 
         of[k * t->step + t->group] *= d->decay[k];
     }
     struct pair *const out = backward(t, modes, modes == work ? other : work);
-    if (across == 1)
-        beside(t, &out->re, at, along, lines, true);
-    else
-        behind(t, &out->re, at, across, lines, true);
+    lines_move(&cells, t->n, &out->re, at, along, across, lines, true);
 }
 
 static int at_most(int x, int most)

@@ -3,7 +3,12 @@
  *
  * Form a is divided by eps, which makes it symmetric: (rho/dt + B/eps - mu laplace/2); forms b
  * and c are so: (rho eps/dt + B - div(eps mu grad)/2). The control volume of a face on an open
- * side is half a cell; with that weight its row is symmetric too. */
+ * side is half a cell; with that weight its row is symmetric too.
+ *
+ * Without grains A is even, and a direct solve (helmholtz.h) takes the place of the iterations: for
+ * w = u_new + u, whose equation knows no Laplacian of u,
+ *     (A - L/2) w = A (x + u),   u_new = w - u
+ * with w = 2 u on the sides, u being that of the middle of the step. */
 #include "diffusion.h"
 
 #include <string.h>
@@ -13,6 +18,10 @@ enum { MOST = 1000 }; /* iterations */
 
 void diffusion_create(struct diffusion *d, const struct sim *s)
 {
+    for (int a = 0; a < 3 && s->fluid.bare; a++)
+        d->direct[a] = helmholtz_create(&s->grid, &s->domain, a);
+    if (s->fluid.bare)
+        return;
     d->r = grid_field(&s->grid);
     d->d = grid_field(&s->grid);
     d->q = grid_field(&s->grid);
@@ -21,6 +30,8 @@ void diffusion_create(struct diffusion *d, const struct sim *s)
 
 void diffusion_free(struct diffusion *d)
 {
+    for (int a = 0; a < 3; a++)
+        helmholtz_free(d->direct[a]);
     void *const all[] = {d->r, d->d, d->q, d->part};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         xfree(all[i]);
@@ -281,6 +292,67 @@ static double apply(const struct sim *s, const struct momentum *m, struct diffus
         d->part[row] = row_dot(&r, d->d, d->q);
     }
     return add_rows(d, rows);
+}
+
+/* A direct solve: x becomes w. */
+struct plain {
+    const struct sim *s;
+    int a;
+    double *x, *u;
+    double A, nu; /* kg/(m3 s), Pa s: half of mu */
+};
+
+/* What the sides add to row (j, k): those along the component by the ghosts beyond them, which are 2 u on
+ * the side less u inside; those across it by u on the side. */
+static void add_sides(const struct plain *q, int j, int k, int first, int last)
+{
+    const struct grid *const g = &q->s->grid;
+    const int at[3] = {0, j, k}, row = cell(g, 0, j, k);
+    for (int side = 0; side < 6; side++) {
+        const int b = side / 2, end = side % 2, beyond = end ? g->s[b] : -g->s[b];
+        const enum side_kind kind = q->s->domain.side[side].kind;
+        const double c = 2.0 * q->nu / (g->h[b] * g->h[b]);
+        const int inside = end ? g->n[b] : b == q->a ? 2 : 1;
+        const bool holds = b == q->a
+                               ? !side_open(&q->s->domain, side)
+                               : kind == SIDE_WALL || kind == SIDE_INFLOW || kind == SIDE_FLUX;
+        if (kind == SIDE_PERIODIC || !holds || (b > 0 && at[b] != inside))
+            continue;
+        for (int i = b > 0 ? first : inside; i <= (b > 0 ? last : inside); i++) {
+            const double *const u = q->u + row + i;
+            q->x[row + i] += c * (b == q->a ? u[beyond] : u[beyond] + u[0]);
+        }
+    }
+}
+
+static void before_direct(const void *with, int j, int k, int first, int last)
+{
+    const struct plain *const q = with;
+    const int row = cell(&q->s->grid, 0, j, k);
+    for (int c = row + first; c <= row + last; c++)
+        q->x[c] = q->A * (q->x[c] + q->u[c]);
+    add_sides(q, j, k, first, last);
+}
+
+static void after_direct(const void *with, int j, int k, int first, int last)
+{
+    const struct plain *const q = with;
+    const int row = cell(&q->s->grid, 0, j, k);
+    for (int c = row + first; c <= row + last; c++)
+        q->u[c] = q->x[c] - q->u[c];
+}
+
+void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *x,
+                      double *u)
+{
+    const struct plain q = {.s = s,
+                            .a = a,
+                            .x = x,
+                            .u = u,
+                            .A = s->fluid.rho / s->fluid.dt,
+                            .nu = 0.5 * s->fluid.mu};
+    const struct helmholtz_hook hook = {before_direct, after_direct, &q};
+    helmholtz_solve(d->direct[a], q.A, q.nu, x, &hook);
 }
 
 int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,

@@ -3,6 +3,7 @@
 #ifndef DIFFUSION_H
 #define DIFFUSION_H
 
+#include "helmholtz.h"
 #include "momentum.h"
 
 /* L u on the inside faces of row (j, k) of component a, ghosts filled; N/m3:
@@ -14,19 +15,24 @@ void diffusion_row(const struct sim *s, const struct momentum *m, enum form form
 double diffusion_open(const struct sim *s, const struct momentum *m, enum form form, int a,
                       int end, int c, const double *u);
 
-struct diffusion {     /* scratch of the conjugate gradients */
-    double *r, *d, *q; /* grid fields */
+struct diffusion {
+    struct helmholtz *direct[3]; /* without grains, for each component */
+    double *r, *d, *q; /* with grains, grid fields: scratch of the conjugate gradients */
     double *part;      /* sums of rows */
 };
 
 void diffusion_create(struct diffusion *d, const struct sim *s);
 void diffusion_free(struct diffusion *d);
 
-/* Component a. x: the velocity predicted without L (all else in it). u: in, the old velocity
+/* With grains, component a. x: the velocity predicted without L (all else in it). u: in, the old velocity
  * with sides and ghosts of the middle of the step; out, that of
  *     A (u_new - x) = (L u_new + L u)/2,   A = rho eps/dt + B
  * Returns the iterations; stops the run where they do not converge. */
 int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,
                     const double *x, double *u, double tolerance);
+
+/* The same without grains, in one direct solve; x is scratch afterwards. */
+void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *x,
+                      double *u);
 
 #endif

@@ -327,8 +327,7 @@ static void predict_plain(struct sim *s, double now, double before)
     }
     fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
     for (int a = 0; a < 3; a++)
-        diffusion_solve(s, &ns->momentum, &ns->diffusion, a, ns->now[a], s->fluid.u[a],
-                        fmin(1e-8, ns->tolerance));
+        diffusion_direct(s, &ns->diffusion, a, ns->now[a], s->fluid.u[a]);
 }
 
 /* u* with grains, and the coefficient of the pressure equation. */
