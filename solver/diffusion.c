@@ -7,7 +7,7 @@
  *
  * Without grains A is even, and a direct solve (helmholtz.h) takes the place of the iterations: for
  * w = u_new + u, whose equation knows no Laplacian of u,
- *     (A - L/2) w = A (x + u),   u_new = w - u
+ *     (1 - L/2A) w = x + u,   u_new = w - u
  * with w = 2 u on the sides, u being that of the middle of the step. */
 #include "diffusion.h"
 
@@ -294,65 +294,62 @@ static double apply(const struct sim *s, const struct momentum *m, struct diffus
     return add_rows(d, rows);
 }
 
-/* A direct solve: x becomes w. */
+/* A direct solve of component a. */
 struct plain {
     const struct sim *s;
     int a;
-    double *x, *u;
-    double A, nu; /* kg/(m3 s), Pa s: half of mu */
+    double *sum; /* m/s, x + u, then w, then u_new */
+    double nu;   /* m2, half of mu over A */
 };
 
-/* What the sides add to row (j, k): those along the component by the ghosts beyond them, which are 2 u on
- * the side less u inside; those across it by u on the side. */
-static void add_sides(const struct plain *q, int j, int k, int first, int last)
+/* w on a side, half of it: along the side the velocity of a wall; across it (u: on the side) what
+ * is given there. False where the side does not hold w, or holds it at 0: most of them, whose cells in memory
+ * are better left alone. */
+static bool side_holds(const struct plain *q, int side, double *along)
 {
+    const struct side *const e = &q->s->domain.side[side];
+    const double wall[3] = {e->velocity.x, e->velocity.y, e->velocity.z};
+    *along = wall[q->a];
+    return side / 2 == q->a ? e->kind == SIDE_INFLOW || e->kind == SIDE_FLUX
+                            : e->kind == SIDE_WALL && *along != 0.0;
+}
+
+/* What the sides add to row (j, k). */
+static void add_sides(const void *with, int j, int k, int first, int last)
+{
+    const struct plain *const q = with;
     const struct grid *const g = &q->s->grid;
     const int at[3] = {0, j, k}, row = cell(g, 0, j, k);
     for (int side = 0; side < 6; side++) {
         const int b = side / 2, end = side % 2, beyond = end ? g->s[b] : -g->s[b];
-        const enum side_kind kind = q->s->domain.side[side].kind;
-        const double c = 2.0 * q->nu / (g->h[b] * g->h[b]);
         const int inside = end ? g->n[b] : b == q->a ? 2 : 1;
-        const bool holds = b == q->a
-                               ? !side_open(&q->s->domain, side)
-                               : kind == SIDE_WALL || kind == SIDE_INFLOW || kind == SIDE_FLUX;
-        if (kind == SIDE_PERIODIC || !holds || (b > 0 && at[b] != inside))
+        const double c = 2.0 * q->nu / (g->h[b] * g->h[b]);
+        double along;
+        if ((b > 0 && at[b] != inside) || !side_holds(q, side, &along))
             continue;
-        for (int i = b > 0 ? first : inside; i <= (b > 0 ? last : inside); i++) {
-            const double *const u = q->u + row + i;
-            q->x[row + i] += c * (b == q->a ? u[beyond] : u[beyond] + u[0]);
-        }
+        const double *const u = q->s->fluid.u[q->a] + row + beyond;
+        const double weight = b == q->a && g->n[b] == 1 ? 2.0 : 1.0; /* beside an open side */
+        for (int i = b > 0 ? first : inside; i <= (b > 0 ? last : inside); i++)
+            q->sum[row + i] += weight * c * (b == q->a ? u[i] : 2.0 * along);
     }
 }
 
-static void before_direct(const void *with, int j, int k, int first, int last)
+static void subtract_old(const void *with, int j, int k, int first, int last)
 {
     const struct plain *const q = with;
     const int row = cell(&q->s->grid, 0, j, k);
-    for (int c = row + first; c <= row + last; c++)
-        q->x[c] = q->A * (q->x[c] + q->u[c]);
-    add_sides(q, j, k, first, last);
+    const double *const restrict u = q->s->fluid.u[q->a] + row;
+    double *const restrict sum = q->sum + row;
+    for (int i = first; i <= last; i++)
+        sum[i] -= u[i];
 }
 
-static void after_direct(const void *with, int j, int k, int first, int last)
+void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *sum)
 {
-    const struct plain *const q = with;
-    const int row = cell(&q->s->grid, 0, j, k);
-    for (int c = row + first; c <= row + last; c++)
-        q->u[c] = q->x[c] - q->u[c];
-}
-
-void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *x,
-                      double *u)
-{
-    const struct plain q = {.s = s,
-                            .a = a,
-                            .x = x,
-                            .u = u,
-                            .A = s->fluid.rho / s->fluid.dt,
-                            .nu = 0.5 * s->fluid.mu};
-    const struct helmholtz_hook hook = {before_direct, after_direct, &q};
-    helmholtz_solve(d->direct[a], q.A, q.nu, x, &hook);
+    const double nu = 0.5 * s->fluid.mu * s->fluid.dt / s->fluid.rho;
+    const struct plain q = {s, a, sum, nu};
+    const struct helmholtz_hook hook = {add_sides, subtract_old, &q};
+    helmholtz_solve(d->direct[a], 1.0, nu, sum, &hook);
 }
 
 int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,

@@ -31,8 +31,8 @@ void diffusion_free(struct diffusion *d);
 int diffusion_solve(const struct sim *s, const struct momentum *m, struct diffusion *d, int a,
                     const double *x, double *u, double tolerance);
 
-/* The same without grains, in one direct solve; x is scratch afterwards. */
-void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *x,
-                      double *u);
+/* The same without grains, in one direct solve. sum: x + u in (fluid.u, with sides and ghosts of the
+ * middle of the step, is the old velocity); the new velocity out, on the faces that have an equation. */
+void diffusion_direct(const struct sim *s, const struct diffusion *d, int a, double *sum);
 
 #endif

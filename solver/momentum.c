@@ -232,10 +232,12 @@ static void plain_row(const struct sim *s, const struct momentum *m, const struc
     const double *const restrict zh = f->high[1];
     const double step = s->fluid.dt / s->fluid.rho, inv = 1.0 / g->h[a], push = drive[a];
     const double now = ab[0], before = ab[1], viscous = m->implicit ? 0.0 : 1.0;
+    const double times = m->implicit ? 2.0 : 1.0;
     for (int i = inside_first(s, a, 0); i <= last; i++) {
         const double R =
             viscous * laplace[i] - ((fx[i] - fx[i - 1]) + (yh[i] - yl[i]) + (zh[i] - zl[i]));
-        out[i] = u[i] + step * (now * R + before * old[i] + push - (p[i] - p[i - sa]) * inv);
+        out[i] =
+            times * u[i] + step * (now * R + before * old[i] + push - (p[i] - p[i - sa]) * inv);
         old[i] = R;
     }
 }
@@ -252,6 +254,7 @@ static void plain_open(const struct sim *s, const struct momentum *m, int a, con
     const struct grid *const g = &s->grid;
     const int b = (a + 1) % 3, d = (a + 2) % 3;
     const double step = s->fluid.dt / s->fluid.rho, viscous = m->implicit ? 0.0 : 1.0;
+    const double times = m->implicit ? 2.0 : 1.0;
     for (int end = 0; end < 2; end++) {
         if (!side_open(&s->domain, 2 * a + end))
             continue;
@@ -261,8 +264,9 @@ static void plain_open(const struct sim *s, const struct momentum *m, int a, con
                 const double R =
                     viscous * diffusion_open(s, m, FORM_A, a, end, c, s->fluid.u[a]) +
                     momentum_back(s, a, end, c);
-                out[c] = s->fluid.u[a][c] + step * (ab[0] * R + ab[1] * old[c] -
-                                                    fluid_gradient(s, s->fluid.p, a, end, c));
+                out[c] = times * s->fluid.u[a][c] +
+                         step * (ab[0] * R + ab[1] * old[c] -
+                                 fluid_gradient(s, s->fluid.p, a, end, c));
                 old[c] = R;
             }
     }

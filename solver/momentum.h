@@ -28,7 +28,8 @@ void momentum_create(struct momentum *m, const struct sim *s, enum convection sc
 void momentum_free(struct momentum *m);
 
 /* Without grains: out = u + dt/rho (now R + before old + drive - grad p) on inside and open
- * faces, m/s; old = R. R = -rho div(u u) + mu laplace(u), the latter unless it is implicit. */
+ * faces, m/s; old = R. R = -rho div(u u) + mu laplace(u), the latter unless it is implicit: then
+ * out is u more, as diffusion_direct wants it. */
 void momentum_plain(const struct sim *s, const struct momentum *m, double now, double before,
                     double *const old[3], double *const out[3]);
 

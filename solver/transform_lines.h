@@ -51,10 +51,42 @@ static inline void store(double *to, pack x, int count)
             to[l] = x[l];
 }
 
-/* n cells of lines that lie side by side, into packs or back. */
+/* n cells of LINES lines that lie side by side, into packs or back. */
+static inline __attribute__((always_inline)) void all_beside(const struct places *p, int n,
+                                                             pack *x, double *at, int along,
+                                                             bool back, bool slots, bool signs)
+{
+    const int group = p->group, step = p->step;
+    for (int i = 0; i < n; i++, at += along) {
+        pack *const low = x + (slots ? p->slot[i] : i * step), *const high = low + group;
+        const bool turn = signs && p->negative[i];
+        pack a, b;
+        __builtin_prefetch(at + LINES); /* of the lines to come */
+        memcpy(&a, back ? (const double *)low : at, sizeof a);
+        memcpy(&b, back ? (const double *)high : at + LANES, sizeof b);
+        a = turn ? -a : a;
+        b = turn ? -b : b;
+        memcpy(back ? at : (double *)low, &a, sizeof a);
+        memcpy(back ? at + LANES : (double *)high, &b, sizeof b);
+    }
+}
+
+/* The same of any number of lines up to LINES. */
 static void lines_beside(const struct places *p, int n, pack *x, double *at, int along,
                          int lines, bool back)
 {
+    if (lines >= LINES) {
+        if (p->negative)
+            (back ? all_beside(p, n, x, at, along, true, true, true)
+                  : all_beside(p, n, x, at, along, false, true, true));
+        else if (p->slot)
+            (back ? all_beside(p, n, x, at, along, true, true, false)
+                  : all_beside(p, n, x, at, along, false, true, false));
+        else
+            (back ? all_beside(p, n, x, at, along, true, false, false)
+                  : all_beside(p, n, x, at, along, false, false, false));
+        return;
+    }
     for (int g = 0; g < 2; g++)
         for (int i = 0; i < n; i++) {
             pack *const to = place(p, x, i, g);
@@ -66,24 +98,55 @@ static void lines_beside(const struct places *p, int n, pack *x, double *at, int
         }
 }
 
-/* Cells of lines that lie one after the other: LANES lines of LANES cells turned at a time. */
+/* LANES cells from i0 on of LANES lines that lie one after the other, turned; row: cell i0 of the first. */
+static inline __attribute__((always_inline)) void
+block_behind(const struct places *p, int i0, int g, pack *x, double *row, int across, bool back)
+{
+    pack block[LANES];
+    if (back) {
+        for (int l = 0; l < LANES; l++)
+            block[l] = signed_at(p, i0 + l, *place(p, x, i0 + l, g));
+        transpose(block);
+        for (int l = 0; l < LANES; l++)
+            memcpy(row + (long)l * across, &block[l], sizeof(pack));
+    } else {
+        for (int l = 0; l < LANES; l++)
+            memcpy(&block[l], row + (long)l * across, sizeof(pack));
+        transpose(block);
+        for (int l = 0; l < LANES; l++)
+            *place(p, x, i0 + l, g) = signed_at(p, i0 + l, block[l]);
+    }
+}
+
+/* The same of fewer lines or cells. */
+static void part_behind(const struct places *p, int i0, int cells, int g, pack *x, double *row,
+                        int across, int lines, bool back)
+{
+    pack block[LANES] = {{0}};
+    for (int l = 0; back && l < cells; l++)
+        block[l] = signed_at(p, i0 + l, *place(p, x, i0 + l, g));
+    for (int l = 0; !back && l < LANES && l < lines; l++)
+        block[l] = load(row + (long)l * across, cells);
+    transpose(block);
+    for (int l = 0; !back && l < cells; l++)
+        *place(p, x, i0 + l, g) = signed_at(p, i0 + l, block[l]);
+    for (int l = 0; back && l < LANES && l < lines; l++)
+        store(row + (long)l * across, block[l], cells);
+}
+
 static void lines_behind(const struct places *p, int n, pack *x, double *at, int across,
                          int lines, bool back)
 {
     for (int g = 0; g < 2; g++)
         for (int i0 = 0; i0 < n; i0 += LANES) {
-            const int cells = n - i0 < LANES ? n - i0 : LANES;
+            const int cells = n - i0 < LANES ? n - i0 : LANES, left = lines - g * LANES;
             double *const row = at + (long)g * LANES * across + i0;
-            pack block[LANES] = {{0}};
-            for (int l = 0; back && l < cells; l++)
-                block[l] = signed_at(p, i0 + l, *place(p, x, i0 + l, g));
-            for (int l = 0; !back && l < LANES && g * LANES + l < lines; l++)
-                block[l] = load(row + (long)l * across, cells);
-            transpose(block);
-            for (int l = 0; !back && l < cells; l++)
-                *place(p, x, i0 + l, g) = signed_at(p, i0 + l, block[l]);
-            for (int l = 0; back && l < LANES && g * LANES + l < lines; l++)
-                store(row + (long)l * across, block[l], cells);
+            if (cells < LANES || left < LANES)
+                part_behind(p, i0, cells, g, x, row, across, left, back);
+            else if (back)
+                block_behind(p, i0, g, x, row, across, true);
+            else
+                block_behind(p, i0, g, x, row, across, false);
         }
 }
 

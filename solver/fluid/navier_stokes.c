@@ -320,14 +320,13 @@ static void predict_plain(struct sim *s, double now, double before)
 {
     struct fluid_work *const ns = s->fluid.work;
     momentum_plain(s, &ns->momentum, now, before, ns->old, ns->now);
-    if (!ns->momentum.implicit) {
+    if (ns->momentum.implicit) {
+        fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
         for (int a = 0; a < 3; a++)
-            swap(&s->fluid.u[a], &ns->now[a]);
-        return;
+            diffusion_direct(s, &ns->diffusion, a, ns->now[a]);
     }
-    fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
     for (int a = 0; a < 3; a++)
-        diffusion_direct(s, &ns->diffusion, a, ns->now[a], s->fluid.u[a]);
+        swap(&s->fluid.u[a], &ns->now[a]);
 }
 
 /* u* with grains, and the coefficient of the pressure equation. */
