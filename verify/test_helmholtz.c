@@ -56,7 +56,7 @@ static struct sim *box(const int n[3], const int p[3], double viscosity)
                                "[fluid]\ndensity = 2 kg/m3\nviscosity = %g Pa s\ndt = 0.1 s\n"
                                "viscous = implicit\n%s[run]\nend = 1e9 s\nforce = on\n",
                                n[0] * 1.0, n[1] * 0.9, n[2] * 1.2, n[0], n[1], n[2], sides,
-                               viscosity, inflow ? "[flow]\nvelocity = 0.3 m/s\n" : "", moving);
+                               inflow ? "[flow]\nvelocity = 0.3 m/s\n" : "", viscosity, moving);
     struct sim *const s = sim_from(text);
     xfree(text);
     xfree(sides);
