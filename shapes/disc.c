@@ -3,8 +3,8 @@
  * are those of the cylinder, m = rho pi/4 d^2 h and I = m d^2/8; forces and torques stay in the plane,
  * and the sides in y are not felt. r_eff of the laws is that of spheres of the same radii.
  *
- * All grains of a run must lie in one plane: a box as thick as the largest diameter puts them there
- * (fill = lattice, random, point). */
+ * Whatever places grains puts them halfway between the sides in y, and what would take them out of this
+ * plane is refused. */
 #include "shape.h"
 
 #define PI 3.14159265358979323846
@@ -14,7 +14,7 @@ const struct about shape_about = {
     .summary = "a disc in the plane of x and z, for two dimensions",
     .equation = "overlap = r_i + r_j - |x_i - x_j| in the plane; m = rho pi/4 d^2 h",
     .source = "exact",
-    .range = "a box as thick as the largest disc is wide"};
+    .range = "a box about as thick as the largest disc is wide, never less"};
 const struct key shape_keys[] = {
     {"grains", "thickness", KEY_REAL, "m", "box | (0, inf)", "box",
      "length of the discs along y, for their mass"},
@@ -25,6 +25,19 @@ enum { SPECIES_MOST = 64 };
 
 static double thickness[SPECIES_MOST]; /* m */
 
+/* Nothing may drive them out of the plane. */
+static void check_plane(struct scene *scene, const char *name)
+{
+    const vec3 v = scene_vector(scene, "grains", name, "velocity");
+    const vec3 w = scene_vector(scene, "grains", name, "spin");
+    if (v.y != 0.0)
+        scene_error(scene, "grains", name, "velocity",
+                    "discs stay in their plane: y must be 0");
+    if (w.x != 0.0 || w.z != 0.0)
+        scene_error(scene, "grains", name, "spin",
+                    "discs turn about y only: x and z must be 0");
+}
+
 static void init(struct scene *scene, const struct grains *g, struct shape_form *form)
 {
     const double box = scene_vector(scene, "domain", NULL, "size").y;
@@ -34,6 +47,7 @@ static void init(struct scene *scene, const struct grains *g, struct shape_form 
                            ? box
                            : scene_real(scene, "grains", name, "thickness");
         form[k].inertia = v3(0.5, 0.5, 0.5);
+        check_plane(scene, name);
         if (box > 2.0 * g->species[k].largest)
             scene_error(
                 scene, "grains", name, "diameter",
@@ -41,6 +55,8 @@ static void init(struct scene *scene, const struct grains *g, struct shape_form 
                 "make it as thick as the largest is wide",
                 g->species[k].largest, box);
     }
+    if (scene_vector(scene, "domain", NULL, "gravity").y != 0.0)
+        scene_error(scene, "domain", NULL, "gravity", "discs stay in their plane: y must be 0");
     if (g->n_species > SPECIES_MOST)
         scene_error(scene, "grains", NULL, NULL, "at most %d species of discs", SPECIES_MOST);
 }
@@ -76,5 +92,8 @@ static void overlaps(const struct grains *g, const struct candidates *c, struct 
     }
 }
 
-const struct shape shape = {
-    .path = &contact_spheres, .init = init, .volume = volume, .overlaps = overlaps};
+const struct shape shape = {.path = &contact_spheres,
+                            .flat = true,
+                            .init = init,
+                            .volume = volume,
+                            .overlaps = overlaps};

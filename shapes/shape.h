@@ -159,6 +159,9 @@ struct shape {
     void (*init)(struct scene *scene, const struct grains *g, struct shape_form *form);
     void (*free)(void);
     double (*volume)(int species, double diameter); /* m3; NULL: of the sphere */
+    bool
+        flat; /* two dimensions: all centres lie in the plane halfway between the sides in y, and
+                  nothing moves along y nor turns about x and z */
 
     /* contact_spheres: sets depth, normal and levers of each candidate. r_i, r_j and r_eff are
      * there already, from the bounding radii (r_j = 0 for a wall); a shape whose surface curves

@@ -17,10 +17,10 @@
 #include "sim.h"
 
 #define PI           3.14159265358979323846
-#define LATTICE_MOST 0.5236 /* simple cubic */
-#define RANDOM_MOST  0.64
-#define GROW_MOST    0.7405 /* the densest lattice */
-#define SIZES_MOST   0.85   /* of differing sizes, the small in the gaps of the large */
+#define LATTICE_MOST (shape.flat ? 0.7854 : 0.5236) /* square; simple cubic */
+#define RANDOM_MOST  (shape.flat ? 0.84 : 0.64)
+#define GROW_MOST    (shape.flat ? 0.9069 : 0.7405) /* the densest lattice */
+#define SIZES_MOST   0.85 /* of differing sizes, the small in the gaps of the large */
 #define SETTLE_LOOSE 0.28
 #define SWELL        0.01
 
@@ -30,7 +30,7 @@ enum { TRIES = 10, COUNT_MOST = 100000000, ROOM_POINTS = 1 << 18, HEIGHT_POINTS 
 static struct fill_region region_read(struct sim *s, struct scene *scene, const char *name,
                                       double widest)
 {
-    struct fill_region r;
+    struct fill_region r = {.flat = shape.flat, .middle = 0.5 * s->domain.size[1]};
     const vec3 from = scene_vector(scene, "grains", name, "from");
     const vec3 to = scene_vector(scene, "grains", name, "to");
     const bool lower = !scene_word(scene, "grains", name, "from", "box");
@@ -54,9 +54,10 @@ static struct fill_region region_read(struct sim *s, struct scene *scene, const 
     return r;
 }
 
-static double sphere(double d)
+/* m3, of a grain of diameter d; of shapes that are no spheres the bounding ones, as they find room. */
+static double solid_of(int species, double d)
 {
-    return PI / 6.0 * d * d * d;
+    return shape.flat ? grains_volume(species, d) : PI / 6.0 * d * d * d;
 }
 
 /* The key that says how many: count, mass or porosity. */
@@ -84,7 +85,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
         solid = scene_real(t->scene, "grains", t->name, "mass") / density;
     else
         solid = (1.0 - scene_real(t->scene, "grains", t->name, "porosity")) * t->room;
-    const double expected = fmin(most, solid / (PI / 6.0 * t->sizes->mean_cube));
+    const double expected = fmin(most, solid / solid_of(t->species, cbrt(t->sizes->mean_cube)));
     if (expected > 0.999 * COUNT_MOST) {
         scene_error(t->scene, "grains", t->name, key, "are about %.3g grains; at most %d",
                     expected, COUNT_MOST);
@@ -94,7 +95,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
     t->diameter = xalloc((size_t)capacity, sizeof *t->diameter);
     for (long k = 0; k < (long)most; k++) {
         const double d = sizes_draw(t->sizes, t->seed, t->species, k);
-        if (sum + 0.5 * sphere(d) > solid)
+        if (sum + 0.5 * solid_of(t->species, d) > solid)
             break;
         if (t->n == capacity) {
             t->diameter = xrealloc(t->diameter, (size_t)capacity, 2 * (size_t)capacity,
@@ -102,7 +103,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
             capacity *= 2;
         }
         t->diameter[t->n++] = d * t->bounding;
-        sum += sphere(d);
+        sum += solid_of(t->species, d);
     }
     if (t->n == 0 && most > 0.0)
         scene_error(t->scene, "grains", t->name, key, "is less than half a grain of %g m",
@@ -114,7 +115,7 @@ static double solid_fraction(const struct fill_task *t)
 {
     double sum = 0.0;
     for (int i = 0; i < t->n; i++)
-        sum += sphere(t->diameter[i]);
+        sum += solid_of(t->species, t->diameter[i]);
     return t->room > 0.0 ? sum / t->room : (double)INFINITY;
 }
 
@@ -383,6 +384,10 @@ void fill(struct sim *s, struct scene *scene, struct fill *f)
             place(&b, &task[k], how[k], &motion);
         if (scene_errors(scene) == 0)
             fill_random(s, &b, task, n, how);
+        for (int i = 0; i < b.n && shape.flat; i++)
+            b.grain[i].pos.y = 0.5 * s->domain.size[1];
+        for (int i = 0; i < motion.n && shape.flat; i++)
+            motion.vel[i].y = motion.spin[i].x = motion.spin[i].z = 0.0;
         if (!shape.path->turning) /* of others, walls_check tells where they reach */
             check_walls(s, scene, &b, names);
         *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin, motion.turn};

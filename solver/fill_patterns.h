@@ -37,6 +37,8 @@ static inline void region_bounds(const struct fill_region *g, double r, double l
         lo[a] = g->open[a] ? g->from[a] : g->from[a] + r;
         hi[a] = g->open[a] ? g->to[a] : g->to[a] - r;
     }
+    if (g->flat)
+        lo[1] = hi[1] = g->middle;
 }
 
 static inline double region_volume(const struct fill_region *g)

@@ -9,6 +9,8 @@
 struct fill_region {
     double from[3], to[3]; /* m */
     bool open[3];
+    bool flat;     /* y of all centres is the middle of the box (shape.flat) */
+    double middle; /* m, that y */
 };
 
 /* At what size, and when to stop. */

@@ -250,13 +250,18 @@ double grains_widest(const struct grains *g)
 
 #define PI 3.14159265358979323846
 
+double grains_volume(int species, double diameter)
+{
+    return shape.volume ? shape.volume(species, diameter)
+                        : PI / 6.0 * diameter * diameter * diameter;
+}
+
 void grains_body(struct grains *g, int i, double diameter)
 {
     const struct species *const sp = &g->species[g->kind[i]];
     const double size = 0.5 * diameter;
     g->radius[i] = size * sp->form.bounding;
-    g->volume[i] = shape.volume ? shape.volume(g->kind[i], diameter)
-                                : PI / 6.0 * diameter * diameter * diameter;
+    g->volume[i] = grains_volume(g->kind[i], diameter);
     g->mass[i] = sp->density * g->volume[i];
     const double scale = g->mass[i] * size * size;
     const vec3 inertia = sp->form.inertia;

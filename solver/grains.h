@@ -105,6 +105,7 @@ int *grains_order(const struct grains *g);
 /* Sets radius, volume, mass and inertia of grain i from its species and its volume-equivalent
  * diameter, m. */
 void grains_body(struct grains *g, int i, double diameter);
+double grains_volume(int species, double diameter); /* m3 */
 /* Notes that the species has one grain more. */
 void species_count(struct species *k, double diameter);
 /* m; radius of the widest grain that there is or that a species may still bring. */

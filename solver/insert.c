@@ -10,8 +10,6 @@
 #include "sim.h"
 #include "turning.h"
 
-#define PI 3.14159265358979323846
-
 enum { TRIES = 200, STEPS_BETWEEN = 100 }; /* places tried per grain and batch; see `every` */
 
 bool insert_changes(const struct sim *s)
@@ -88,6 +86,8 @@ static bool find_place(struct sim *s, const struct source *o, const struct fill_
     for (int k = 0; k < TRIES; k++) {
         const double u[3] = {gsl_rng_uniform(rng), gsl_rng_uniform(rng), gsl_rng_uniform(rng)};
         *x = domain_wrap(&s->domain, insert_region_point(&o->region, 0.5 * diameter, u));
+        if (shape.flat)
+            x->y = 0.5 * s->domain.size[1];
         if (fill_grid_overlap(near, *x, diameter, 0.0) == 0.0 &&
             clear_of_walls(s, *x, diameter))
             return true;
@@ -138,7 +138,7 @@ static void displace(struct sim *s, int i, double sign)
 static void set_due(const struct sim *s, struct source *o, double until)
 {
     const struct species *const k = &s->grains.species[o->species];
-    const double mean = k->density * PI / 6.0 * k->sizes.mean_cube;
+    const double mean = k->density * grains_volume(o->species, cbrt(k->sizes.mean_cube));
     const double time = fmax(0.0, fmin(until, o->end) - o->start);
     if (o->rate > 0.0) {
         o->asked = fmin(o->count_most, floor(o->rate * time * (1.0 + 1e-12) + 1e-9));
@@ -185,7 +185,7 @@ static int serve(struct sim *s, int source, double until)
     set_due(s, o, until);
     for (bool open = false;; open = true) {
         const double d = sizes_draw(&k->sizes, seed & 0xfffffful, o->species, (long)o->done);
-        const double mass = k->density * PI / 6.0 * d * d * d;
+        const double mass = k->density * grains_volume(o->species, d);
         vec3 x;
         if (!is_due(o, mass)) {
             o->waits = -1.0;
@@ -202,9 +202,10 @@ static int serve(struct sim *s, int source, double until)
                 die_full(s, o, d, late);
             break;
         }
-        const vec3 v = v3(o->velocity.x + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
-                          o->velocity.y + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
-                          o->velocity.z + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0));
+        vec3 v = v3(o->velocity.x + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
+                    o->velocity.y + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0),
+                    o->velocity.z + o->scatter * (2.0 * gsl_rng_uniform(rng) - 1.0));
+        v.y = shape.flat ? 0.0 : v.y;
         const int i = insert_grain(s, o->species, x, d, v);
         fill_grid_add(&near, (struct placed){x, wide, o->species});
         o->done += 1.0;

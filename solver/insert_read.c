@@ -210,7 +210,7 @@ void insert_expect(FILE *out, const struct sim *s)
     for (int k = 0; k < s->traffic.n_sources; k++) {
         const struct source *const o = &s->traffic.source[k];
         const struct species *const sp = &s->grains.species[o->species];
-        const double mean = sp->density * PI / 6.0 * sp->sizes.mean_cube;
+        const double mean = sp->density * grains_volume(o->species, cbrt(sp->sizes.mean_cube));
         const double time = fmax(0.0, fmin(s->run.end, o->end) - o->start);
         double n = o->rate > 0.0 ? o->rate * time : o->mass_flow * time / mean;
         n = fmin(n, fmin(o->count_most, o->mass_most / mean));
@@ -234,7 +234,7 @@ static void report_sizes(struct sim *s)
         double *const d = xalloc(n + 1, sizeof *d), mass = 0.0;
         for (size_t i = 0; i < n; i++) {
             d[i] = sp->made[i];
-            mass += sp->density * PI / 6.0 * d[i] * d[i] * d[i];
+            mass += sp->density * grains_volume(k, d[i]);
         }
         snprintf(key, sizeof key, "%.31s_made", sp->name);
         summary_number(&s->summary, key, sp->n_made, "1");
