@@ -19,7 +19,9 @@
 #include "../solver/superquadric.h"
 #include "../solver/volume_parts.h"
 
-enum { MEMORY = 4 }; /* the last normal, and nothing */
+enum {
+    MEMORY = 4
+}; /* the last normal, in the frame of the flatter body; 1: that of i, 2: of j */
 
 const struct about shape_about = {
     .name = "superquadric",
@@ -119,15 +121,30 @@ static void radii(const struct shape_pair *p, const struct superquadric_touch *t
     out->r_j = part < 1.0 ? fmin(most_j, t->r_eff / (1.0 - part)) : most_j;
 }
 
+/* Where a face meets an edge or a corner the normal turns with the face, and the point on the face moves as
+ * a high root of it: so it is kept in the frame of the body that is flatter there. */
+static vec3 recall_normal(const struct shape_pair *p)
+{
+    const vec3 n = v3((double)p->memory[0], (double)p->memory[1], (double)p->memory[2]);
+    return mat3_turn(p->memory[3] == (real)2.0 ? &p->j.turn : &p->i.turn, n);
+}
+
+static void keep_normal(const struct shape_pair *p, const struct superquadric_touch *t,
+                        bool of_j)
+{
+    const vec3 n = mat3_back(of_j ? &p->j.turn : &p->i.turn, t->normal);
+    p->memory[0] = (real)n.x;
+    p->memory[1] = (real)n.y;
+    p->memory[2] = (real)n.z;
+    p->memory[3] = of_j ? (real)2.0 : (real)1.0;
+}
+
 static int points(const struct shape_pair *p, int most, struct shape_point *out)
 {
     const struct superquadric_placed i = placed(&p->i), j = placed(&p->j);
-    struct superquadric_touch t = {
-        .normal = v3((double)p->memory[0], (double)p->memory[1], (double)p->memory[2])};
+    struct superquadric_touch t = {.normal = recall_normal(p)};
     const bool near = superquadric_meet(&i, &j, v3_scale(-1.0, p->j.centre), p->reach, &t);
-    p->memory[0] = (real)t.normal.x;
-    p->memory[1] = (real)t.normal.y;
-    p->memory[2] = (real)t.normal.z;
+    keep_normal(p, &t, near && t.r_j > t.r_i);
     if (!near || most < 1)
         return near;
     const vec3 half = v3_scale(0.5 * t.gap, t.normal);

@@ -71,6 +71,31 @@ static vec3 ellipsoid_support(const struct superquadric *s, vec3 n, struct symme
     return p;
 }
 
+/* n1 = n2: h = |(A, B, C)|_q with A = |a nx| and so on; dh/dA = (A/h)^(q - 1), and with t = q - 1
+ *   d2h/dA2 = t/h ((A/h)^(q - 2) - (dh/dA)^2),  d2h/dAdB = -t/h dh/dA dh/dB. */
+static vec3 block_support(const struct superquadric *s, vec3 n, struct symmetric *m)
+{
+    const double a = s->a[0], b = s->a[1], c = s->a[2];
+    const double size = flat * (fabs(n.x) + fabs(n.y) + fabs(n.z)) * a;
+    const double A = fmax(fabs(a * n.x), size), B = fmax(fabs(b * n.y), size);
+    const double C = fmax(fabs(c * n.z), size);
+    const double Aq = pow(A, s->q1), Bq = pow(B, s->q1), Cq = pow(C, s->q1), U = Aq + Bq + Cq;
+    const double h = pow(U, s->inv_q1), hU = h / U;
+    const double iA = 1.0 / A, iB = 1.0 / B, iC = 1.0 / C;
+    const double h_a = Aq * iA * hU, h_b = Bq * iB * hU, h_c = Cq * iC * hU;
+    const double sx = n.x < 0.0 ? -a : a, sy = n.y < 0.0 ? -b : b, sz = n.z < 0.0 ? -c : c;
+    if (m) {
+        const double t = (s->q1 - 1.0) / h, most = flattest * fmax(a, fmax(b, c));
+        m->xx = fmin(most, a * a * t * h_a * (h * iA - h_a));
+        m->yy = fmin(most, b * b * t * h_b * (h * iB - h_b));
+        m->zz = fmin(most, c * c * t * h_c * (h * iC - h_c));
+        m->xy = -sx * sy * t * h_a * h_b;
+        m->xz = -sx * sz * t * h_a * h_c;
+        m->yz = -sy * sz * t * h_b * h_c;
+    }
+    return v3(sx * h_a, sy * h_b, sz * h_c);
+}
+
 /* With A = |a nx| and so on, rho = |(A, B)|_q2, h = |(rho, C)|_q1:
  *   dh/drho = (rho/h)^(q1 - 1),  drho/dA = (A/rho)^(q2 - 1),  and with t = q - 1
  *   d2h/drho2 = t/h ((rho/h)^(q1 - 2) - (dh/drho)^2), and so on. */
@@ -78,11 +103,13 @@ vec3 superquadric_support_curved(const struct superquadric *s, vec3 n, struct sy
 {
     if (s->ellipsoid)
         return ellipsoid_support(s, n, m);
+    if (s->one)
+        return block_support(s, n, m);
     const double size = flat * (fabs(n.x) + fabs(n.y) + fabs(n.z)) * s->a[0];
     const double A = fmax(fabs(s->a[0] * n.x), size), B = fmax(fabs(s->a[1] * n.y), size);
     const double C = fmax(fabs(s->a[2] * n.z), size);
     const double Aq = pow(A, s->q2), Bq = pow(B, s->q2), Cq = pow(C, s->q1), S = Aq + Bq;
-    const double rho = pow(S, s->inv_q2), rhoq = s->one ? S : pow(rho, s->q1), U = rhoq + Cq;
+    const double rho = pow(S, s->inv_q2), rhoq = pow(rho, s->q1), U = rhoq + Cq;
     const double h = pow(U, s->inv_q1), hU = h / U, rS = rho / S;
     const double h_r = rhoq / rho * hU, h_c = Cq / C * hU; /* dh/drho, dh/dC */
     const double r_a = Aq / A * rS, r_b = Bq / B * rS;     /* drho/dA, drho/dB */
@@ -102,6 +129,18 @@ vec3 superquadric_support_curved(const struct superquadric *s, vec3 n, struct sy
         m->yz = sy * sz * h_rc * r_b;
     }
     return v3(sx * h_r * r_a, sy * h_r * r_b, sz * h_c);
+}
+
+/* Of p-norms |x|_q <= |x|_1^e |x|_2^(1 - e) with 1/q = e + (1 - e)/2, and geometric means are below arithmetic
+ * ones. */
+double superquadric_reach(const struct superquadric *s, vec3 n)
+{
+    const double A = fabs(s->a[0] * n.x), B = fabs(s->a[1] * n.y), C = fabs(s->a[2] * n.z);
+    const double e1 = 2.0 * s->inv_q1 - 1.0, e2 = 2.0 * s->inv_q2 - 1.0;
+    if (s->one)
+        return e1 * (A + B + C) + (1.0 - e1) * sqrt(A * A + B * B + C * C);
+    const double rho = e2 * (A + B) + (1.0 - e2) * sqrt(A * A + B * B);
+    return e1 * (rho + C) + (1.0 - e1) * sqrt(rho * rho + C * C);
 }
 
 vec3 superquadric_support(const struct superquadric *s, vec3 n)

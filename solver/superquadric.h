@@ -48,6 +48,9 @@ vec3 superquadric_support(const struct superquadric *s, vec3 n);
 vec3 superquadric_support_curved(const struct superquadric *s, vec3 n,
                                  struct symmetric *hessian);
 
+/* An upper bound of h that takes no powers: within 6 %. */
+double superquadric_reach(const struct superquadric *s, vec3 n);
+
 double superquadric_volume(const struct superquadric *s); /* m3 */
 double superquadric_radius(const struct superquadric *s); /* m, of the bounding sphere */
 void superquadric_inertia(const struct superquadric *s, double i[3]); /* m5, per unit density */

@@ -12,11 +12,16 @@
  * [Podlozhnyuk17, eq. 13] need not. Nearest points by common normals: [Wellmann08]. */
 #include "superquadric.h"
 
-enum { TRIES = 40 };
+enum { LATE = 8, TRIES = 40 };
 
 static const double turned = 1e-15; /* rad, of no account */
 static const double aligned =
-    1e-7; /* sizes: the linear step from there is good to 1e-12 or so */
+    1e-6; /* sizes: the linear step from there is good to 1e-12 or so */
+/* sizes, of the gap: what is left to gain when the normal's round-off, times the radius of a face's
+ * curvature, moves the points more than a step does */
+static const double noise = 1e-13;
+static const double blocky =
+    2.0; /* sizes: radii of curvature from which on the point is moved first */
 static const double largest_step = 0.7; /* rad */
 
 static inline vec3 times(const struct symmetric *m, vec3 v)
@@ -146,13 +151,14 @@ static void touch_set(struct superquadric_touch *touch, const struct view *w, do
 /* A step from `from` that does not overshoot: the view at its end. False: farther apart than
  * `reach`, or no step is left */
 static bool step_take(const struct superquadric_placed *i, const struct superquadric_placed *j,
-                      vec3 apart, double reach, const struct view *from, double du, double dv,
-                      struct view *to, int *tries)
+                      vec3 apart, double reach, double size, const struct view *from, double du,
+                      double dv, struct view *to, int *tries)
 {
     const vec3 t = across(from, du, dv);
     const double slope = from->gu * du + from->gv * dv;
+    const bool flat = from->i.H.uu + from->i.H.vv + from->j.H.uu + from->j.H.vv > blocky * size;
     double part = 1.0;
-    vec3 n = unit(v3_add(from->n, t));
+    vec3 n = flat ? step_on_surface(i, j, from, du, dv) : unit(v3_add(from->n, t));
     for (int k = 0; *tries < TRIES; k++) {
         view_set(to, i, j, apart, n);
         ++*tries;
@@ -162,7 +168,7 @@ static bool step_take(const struct superquadric_placed *i, const struct superqua
         if (there >= -0.9 * slope && to->gap >= from->gap - 1e-14 * v3_norm(from->i.p))
             return true;
         if (k == 0) {
-            n = step_on_surface(i, j, from, du, dv);
+            n = flat ? unit(v3_add(from->n, t)) : step_on_surface(i, j, from, du, dv);
             continue;
         }
         if (k > 1)
@@ -183,6 +189,18 @@ bool superquadric_meet(const struct superquadric_placed *i, const struct superqu
     const double size = i->size * (a[0] + a[1] + a[2]) + j->size * (b[0] + b[1] + b[2]);
     const double start = v3_dot(touch->normal, touch->normal);
     struct view w, next;
+    /* far pairs: the direction that parted them last still does, by a bound of the support functions */
+    if (start > 0.0 && !(i->shape->ellipsoid && j->shape->ellipsoid)) {
+        const double bound =
+            v3_dot(apart, touch->normal) -
+            i->size * superquadric_reach(i->shape, mat3_back(&i->turn, touch->normal)) -
+            j->size * superquadric_reach(j->shape, mat3_back(&j->turn, touch->normal));
+        if (bound > reach * sqrt(start)) {
+            touch->gap = bound / sqrt(start);
+            touch->tries = 0;
+            return false;
+        }
+    }
     touch->tries = 1;
     view_set(&w, i, j, apart,
              start > 0.0 ? v3_scale(1.0 / sqrt(start), touch->normal) : unit(apart));
@@ -190,7 +208,10 @@ bool superquadric_meet(const struct superquadric_placed *i, const struct superqu
         double du, dv;
         newton(&w, &du, &dv);
         const double across2 = w.gu * w.gu + w.gv * w.gv, angle2 = du * du + dv * dv;
-        if (across2 < aligned * aligned * size * size || angle2 < turned * turned ||
+        const double gain = w.gu * du + w.gv * dv;
+        const bool still = touch->tries > LATE ? gain < 100.0 * noise * size
+                                               : touch->tries > 2 && gain < noise * size;
+        if (across2 < aligned * aligned * size * size || angle2 < turned * turned || still ||
             touch->tries >= TRIES) {
             const bool near = angle2 < 1e-6;
             touch_set(touch, &w, near ? du : 0.0, near ? dv : 0.0);
@@ -201,7 +222,7 @@ bool superquadric_meet(const struct superquadric_placed *i, const struct superqu
             du *= cut;
             dv *= cut;
         }
-        if (!step_take(i, j, apart, reach, &w, du, dv, &next, &touch->tries) &&
+        if (!step_take(i, j, apart, reach, size, &w, du, dv, &next, &touch->tries) &&
             next.gap <= reach) {
             touch_set(touch, &w, 0.0, 0.0);
             return true;

@@ -31,8 +31,10 @@ static struct superquadric any(double blockiness)
 {
     struct superquadric s;
     const double axes[3] = {uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1)};
-    superquadric_set(&s, axes, blockiness > 2 ? uniform(2, blockiness) : 2,
-                     blockiness > 2 ? uniform(2, blockiness) : 2);
+    const double n1 = blockiness > 2 ? uniform(2, blockiness) : 2;
+    const double n2 = blockiness > 2 && uniform(0, 1) < 0.5 ? uniform(2, blockiness) : n1;
+    superquadric_set(&s, axes, n1,
+                     n2); /* half of them with one exponent, which has its own formulas */
     return s;
 }
 
@@ -100,6 +102,22 @@ static void test_support(double blockiness)
           slope);
     check(radius < 1 + 1e-14 && radius > 0.95,
           "no point beyond the bounding sphere: %.4f of it", radius);
+}
+
+/* The bound without powers lies above the support function, by little. */
+static void test_reach(void)
+{
+    double least = 1e300, most = 0;
+    for (int k = 0; k < 3000; k++) {
+        const struct superquadric s = any(20);
+        const vec3 n = direction();
+        const double h = v3_dot(n, superquadric_support(&s, n)),
+                     r = superquadric_reach(&s, n) / h;
+        least = fmin(least, r);
+        most = fmax(most, r);
+    }
+    check(least > 1 - 1e-14 && most < 1.06, "bound of the support function: %.6f to %.4f of it",
+          least, most);
 }
 
 static double gap_along(const struct superquadric_placed *i,
@@ -265,6 +283,7 @@ int main(void)
     test_mass(2.5, 8);
     test_support(2);
     test_support(8);
+    test_reach();
     test_exact();
     test_areas();
     test_frames();
