@@ -16,7 +16,6 @@ cavity() { # RE VISCOSITY DT END SCHEME
 }
 
 cavity 100 "10 mPa s" "0.76 ms" "16 s" centred
-cavity 400 "2.5 mPa s" "1.8 ms" "40 s" centred
 cavity 1000 "1 mPa s" "1.8 ms" "80 s" centred
 cavity 1000 "1 mPa s" "1.8 ms" "80 s" van_leer
 exit $bad
