@@ -54,12 +54,20 @@ static void krylov_free(struct krylov *w)
 static void krylov_start(struct krylov *w)
 {
     const struct stencil t = stencil_of(w);
-    const size_t plane = (size_t)t.s[2];
+    const size_t plane = (size_t)t.s[2], row = (size_t)t.s[1];
     REAL *const fields[] = {w->r, w->z, w->s, w->q};
 #pragma omp parallel for schedule(static) if (worth_threads(&t))
     for (int k = 0; k < t.n[2] + 2; k++)
-        for (int i = 0; i < 4 && w->lent; i++)
-            memset(fields[i] + (size_t)k * plane, 0, plane * sizeof(REAL));
+        for (int i = 0; i < 4 && w->lent; i++) {
+            REAL *const at = fields[i] + (size_t)k * plane;
+            const bool whole = k == 0 || k == t.n[2] + 1;
+            for (int j = 0; j < t.n[1] + 2; j++) {
+                REAL *const cells = at + (size_t)j * row;
+                if (whole || j == 0 || j == t.n[1] + 1)
+                    memset(cells, 0, row * sizeof(REAL));
+                cells[0] = cells[t.n[0] + 1] = (REAL)0;
+            }
+        }
 }
 
 static void krylov_coarsen(struct krylov *w)
@@ -105,28 +113,54 @@ static void precondition(struct krylov *w, const struct stencil *t, bool multigr
     *zq = sum_rows(t, w->part + rows_of(t));
 }
 
-/* s = z + beta s, q = A s; returns s q */
-static double turn(struct krylov *w, const struct stencil *t, REAL beta)
+/* s = z + beta s on plane k, ghosts in the plane; beta = 0: whatever s holds. */
+static void turn_plane(struct krylov *w, const struct stencil *t, int k, REAL beta)
 {
-    REAL *const s = w->s, *const q = w->q;
+    REAL *const s = w->s;
     const REAL *const z = w->z;
     const int n = t->n[0];
-    const long rows = rows_of(t);
-#pragma omp parallel if (worth_threads(t))
-    {
-#pragma omp for schedule(static)
-        for (long row = 0; row < rows; row++) {
-            const size_t at = row_at(t, row);
+    for (int j = 0; j < t->n[1]; j++) {
+        const size_t at = row_at(t, (long)k * t->n[1] + j);
+        if (beta != (REAL)0)
             for (int i = 0; i < n; i++)
                 s[at + i] = z[at + i] + beta * s[at + i];
-            row_ghosts(t, s + at);
-        }
-        plane_ghosts(t, s);
-#pragma omp for schedule(static)
-        for (long row = 0; row < rows; row++) {
-            const size_t at = row_at(t, row);
-            row_apply(t, s + at, at, row, q + at);
-            w->part[row] = row_dot(s + at, q + at, n);
+        else
+            memcpy(s + at, z + at, (size_t)n * sizeof(REAL));
+        row_ghosts(t, s + at);
+    }
+    plane_ghosts(t, s, k);
+}
+
+/* q = A s on plane k, and its products with s. */
+static void apply_plane(struct krylov *w, const struct stencil *t, int k)
+{
+    REAL *const s = w->s, *const q = w->q;
+    for (long row = (long)k * t->n[1]; row < (long)(k + 1) * t->n[1]; row++) {
+        const size_t at = row_at(t, row);
+        row_apply(t, s + at, at, row, q + at);
+        w->part[row] = row_dot(s + at, q + at, t->n[0]);
+    }
+}
+
+/* s = z + beta s, q = A s; returns s q. One pass: a plane is turned just before it is a neighbour; the
+ * first and the last plane of each thread before all others. */
+static double turn(struct krylov *w, const struct stencil *t, REAL beta)
+{
+#pragma omp parallel if (worth_threads(t))
+    {
+        const int threads = omp_get_num_threads(), me = omp_get_thread_num();
+        const int lo = (int)((long)t->n[2] * me / threads);
+        const int hi = (int)((long)t->n[2] * (me + 1) / threads);
+        if (lo < hi)
+            turn_plane(w, t, lo, beta);
+        if (lo < hi - 1)
+            turn_plane(w, t, hi - 1, beta);
+#pragma omp barrier
+        end_ghosts(t, w->s);
+        for (int k = lo; k < hi; k++) {
+            if (k + 1 < hi - 1)
+                turn_plane(w, t, k + 1, beta);
+            apply_plane(w, t, k);
         }
     }
     return sum_rows(t, w->part);

@@ -1,4 +1,5 @@
 /* krylov_double.c - conjugate gradients and multigrid in double precision, see krylov.h. */
+#include <omp.h>
 #include "krylov.h"
 
 #define REAL   double

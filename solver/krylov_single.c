@@ -1,4 +1,5 @@
 /* krylov_single.c - conjugate gradients and multigrid in single precision, see krylov.h. */
+#include <omp.h>
 #include "krylov.h"
 
 #define REAL   float

@@ -246,7 +246,7 @@ static void jacobi(struct level *l, const REAL *b, REAL omega)
     const REAL *const x = l->x, *const inverse = l->inverse;
     REAL *const x_new = l->x_new;
     const long rows = rows_of(t);
-    plane_ghosts(t, l->x);
+    all_ghosts(t, l->x);
 #pragma omp for schedule(static)
     for (long row = 0; row < rows; row++) {
         const size_t at = row_at(t, row);
@@ -348,7 +348,7 @@ static void descend(struct multigrid *m, int at, const REAL *b)
         jacobi_first(l, b, omega_of(0));
         for (int step = 1; step < STEPS; step++)
             jacobi(l, b, omega_of(step));
-        plane_ghosts(&l->t, l->x);
+        all_ghosts(&l->t, l->x);
 #pragma omp for schedule(static)
         for (long row = 0; row < coarse; row++)
             restrict_row(l, b, next, row);

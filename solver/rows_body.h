@@ -80,18 +80,22 @@ static inline void row_ghosts(const struct stencil *t, REAL *f)
     }
 }
 
-/* Periodic images of rows and planes; other ghosts stay as they are. Inside a team. */
-static void plane_ghosts(const struct stencil *t, REAL *f)
+/* Periodic images of the first and the last row of plane k; other ghosts stay as they are. */
+static inline void plane_ghosts(const struct stencil *t, REAL *f, int k)
+{
+    const size_t bytes = (size_t)t->s[1] * sizeof(REAL);
+    REAL *const plane = f + t->start - 1 + (size_t)k * t->s[2];
+    if (!t->periodic[1])
+        return;
+    memcpy(plane - t->s[1], plane + (size_t)(t->n[1] - 1) * t->s[1], bytes);
+    memcpy(plane + (size_t)t->n[1] * t->s[1], plane, bytes);
+}
+
+/* Periodic images of the first and the last plane. Inside a team. */
+static void end_ghosts(const struct stencil *t, REAL *f)
 {
     const size_t bytes = (size_t)t->s[1] * sizeof(REAL);
     REAL *const first = f + t->start - 1;
-    if (t->periodic[1])
-#pragma omp for schedule(static)
-        for (int k = 0; k < t->n[2]; k++) {
-            REAL *const plane = first + (size_t)k * t->s[2];
-            memcpy(plane - t->s[1], plane + (size_t)(t->n[1] - 1) * t->s[1], bytes);
-            memcpy(plane + (size_t)t->n[1] * t->s[1], plane, bytes);
-        }
     if (t->periodic[2])
 #pragma omp for schedule(static)
         for (int j = 0; j < t->n[1]; j++) {
@@ -99,6 +103,15 @@ static void plane_ghosts(const struct stencil *t, REAL *f)
             memcpy(row - t->s[2], row + (size_t)(t->n[2] - 1) * t->s[2], bytes);
             memcpy(row + (size_t)t->n[2] * t->s[2], row, bytes);
         }
+}
+
+/* Of a whole field. Inside a team. */
+static void all_ghosts(const struct stencil *t, REAL *f)
+{
+#pragma omp for schedule(static)
+    for (int k = 0; k < t->n[2]; k++)
+        plane_ghosts(t, f, k);
+    end_ghosts(t, f);
 }
 
 static double sum_rows(const struct stencil *t, const double *part)
