@@ -266,7 +266,7 @@ static void porous_verbs(void)
         momentum_porous(s, &m, rhs, w, s->fluid.stress);
         at[1] = now();
         for (int a = 0; a < 3; a++)
-            projection_predict(s, a, 1.5, -0.5, w[a], old[a], s->fluid.u[a]);
+            projection_predict(s, a, 1.5, -0.5, w[a], old[a], s->fluid.u[a], NULL);
         at[2] = now();
         for (int a = 0; a < 3; a++)
             projection_coefficient(s, a, w[a]);

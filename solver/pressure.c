@@ -132,6 +132,11 @@ struct solve pressure_solve(struct pressure *p, double *const c[3], double shift
         krylov_single.start(krylov_for(p, false));
     result.start = result.end =
         pressure_residual(p, c, shift, rhs, mean, phi, unit, krylov_for(p, in_double));
+    if (result.end > 2.0 * size) { /* worse than none */
+        memset(phi, 0, p->g->total * sizeof *phi);
+        result.end =
+            pressure_residual(p, c, shift, rhs, mean, phi, unit, krylov_for(p, in_double));
+    }
     if (result.end > target && p->method == PRESSURE_AUTO && pressure_layered(p, &s, c)) {
         for (; result.iterations < 3 && result.end > target; result.iterations++)
             result.end = solve_directly(p, c, shift, rhs, mean, phi);

@@ -40,9 +40,9 @@ void pressure_method(struct pressure *p, enum pressure_method method);
 /* c[a]: face fields (low face of the cell), every face of the interior and of the boundary set;
  * boundary faces of Neumann sides are ignored. phi: the guess, then the solution; its ghosts
  * are filled with the side conditions. A good guess (the last solution, or twice the last less
- * the one before) saves a third of the iterations. Stops at |r| <= tolerance |rhs| or <= floor,
+ * the one before) saves a third of the iterations; one whose residual is twice |rhs| is taken for 0. Stops at |r| <= tolerance |rhs| or <= floor,
  * in 2-norms, or where round-off of phi allows no better. Where constants solve the equation, the mean of rhs is ignored and that of phi
- * stays as it was. */
+ * stays as it was (0 if the guess is not taken). */
 struct solve pressure_solve(struct pressure *p, double *const c[3], double shift,
                             const double *rhs, double *phi, double tolerance, double floor);
 

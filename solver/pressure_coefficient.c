@@ -11,35 +11,54 @@ static bool closed(const struct pressure *p, int a, int i)
 
 enum { SIDE = 8 }; /* of a row, side by side, which the compiler makes vectors of */
 
+typedef double pack __attribute__((vector_size(8 * SIDE)));
+typedef long pack_index __attribute__((vector_size(8 * SIDE)));
+
 struct layer_sums {
-    double sum, square, least[SIDE], most[SIDE];
+    pack sum, square, least, most;
 };
 
-/* Adds a row: its sum, that of its squares, its extremes; 0 is no least. */
-static void add_row(struct layer_sums *s, const double *restrict x, int n)
+static inline pack smaller(pack a, pack b)
 {
-    double sum[SIDE] = {0}, square[SIDE] = {0};
-    double *const restrict least = s->least, *const restrict most = s->most;
+    const pack_index first = a < b;
+    return (pack)(((pack_index)a & first) | ((pack_index)b & ~first));
+}
+
+/* Adds SIDE values to the sums and the extremes; 0 is no least. */
+static inline void add_pack(struct layer_sums *s, pack x)
+{
+    const pack_index passes = x > 0.0;
+    const pack infinite = (pack){0} + (double)INFINITY;
+    s->sum += x;
+    s->square += x * x;
+    s->least =
+        smaller((pack)(((pack_index)x & passes) | ((pack_index)infinite & ~passes)), s->least);
+    s->most = -smaller(-x, -s->most);
+}
+
+static void add_row(struct layer_sums *into, const double *x, int n)
+{
+    struct layer_sums s = *into;
+    pack here;
     int i = 0;
-    for (; i + SIDE <= n; i += SIDE)
-        for (int l = 0; l < SIDE; l++) {
-            const double v = x[i + l], passes = v > 0.0 ? v : (double)INFINITY;
-            sum[l] += v;
-            square[l] += v * v;
-            least[l] = passes < least[l] ? passes : least[l];
-            most[l] = v > most[l] ? v : most[l];
-        }
-    for (int l = 0; i < n; i++, l++) {
-        const double v = x[i], passes = v > 0.0 ? v : (double)INFINITY;
-        sum[l] += v;
-        square[l] += v * v;
-        least[l] = passes < least[l] ? passes : least[l];
-        most[l] = v > most[l] ? v : most[l];
+    for (; i + SIDE <= n; i += SIDE) {
+        memcpy(&here, x + i, sizeof here);
+        add_pack(&s, here);
     }
-    for (int l = 0; l < SIDE; l++) {
-        s->sum += sum[l];
-        s->square += square[l];
+    if (i < n) {
+        here = (pack){0};
+        memcpy(&here, x + i, (size_t)(n - i) * sizeof *x);
+        add_pack(&s, here);
     }
+    *into = s;
+}
+
+static double total(pack x)
+{
+    double sum = 0.0;
+    for (int l = 0; l < SIDE; l++)
+        sum += x[l];
+    return sum;
 }
 
 /* Sums over layer k, each face once: of c in x and y and of the face below in z, of squares;
@@ -73,10 +92,10 @@ static void layer_statistics(struct pressure *p, double *const c[3], int k)
         p->most[k] = fmax(p->most[k], fmax(flat.most[l], up.most[l]));
     }
     if (k <= g->n[2]) {
-        p->flat[k] = faces > 0 ? flat.sum / (double)faces : 0.0;
-        p->square[k] = faces > 0 ? flat.square / (double)faces : 0.0;
+        p->flat[k] = faces > 0 ? total(flat.sum) / (double)faces : 0.0;
+        p->square[k] = faces > 0 ? total(flat.square) / (double)faces : 0.0;
     }
-    p->up[k] = up.sum / count;
+    p->up[k] = total(up.sum) / count;
 }
 
 struct statistics pressure_statistics(struct pressure *p, double *const c[3])

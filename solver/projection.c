@@ -91,40 +91,47 @@ static void predict_row(const struct sim *s, int a, const struct predict *q, int
     }
 }
 
+static void coefficient_row(const struct sim *s, int a, double *w, int j, int k)
+{
+    const struct fluid *const f = &s->fluid;
+    const int at = cell(&s->grid, 0, j, k), last = face_last(&s->grid, a, 0), sa = s->grid.s[a];
+    const double rate = f->rho / f->dt, whole = f->whole_pressure ? 1.0 : 0.0;
+    const double *const restrict e = f->eps + at, *const restrict B = f->drag[a] + at;
+    double *const restrict out = w + at;
+    for (int i = 1; i <= last; i++) {
+        const double m = 0.5 * (e[i] + e[i - sa]), g = m + whole * (1.0 - m);
+        out[i] = m * g / (rate * m + B[i]);
+    }
+}
+
 void projection_predict(const struct sim *s, int a, double now, double before, const double *R,
-                        double *old, double *x)
+                        double *old, double *x, double *w)
 {
     const struct predict q = {now, before, component(s->flow.gradient, a), R, old, x};
     const int rows = rows_of(s, a), faces = open_faces(s, a);
+    for (int end = 0; end < 2; end++)
+        if (side_open(&s->domain, 2 * a + end))
+            for (int n = 0; n < faces; n++)
+                predict_open(s, &q, open_at(s, a, end, n));
 #pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
     for (int row = 0; row < rows; row++) {
         int j, k;
         row_at(s, a, row, &j, &k);
         if (row_inside(s, a, j, k))
             predict_row(s, a, &q, j, k);
+        if (w)
+            coefficient_row(s, a, w, j, k);
     }
-    for (int end = 0; end < 2; end++)
-        if (side_open(&s->domain, 2 * a + end))
-            for (int n = 0; n < faces; n++)
-                predict_open(s, &q, open_at(s, a, end, n));
 }
 
 void projection_coefficient(const struct sim *s, int a, double *w)
 {
-    const struct fluid *const f = &s->fluid;
-    const int rows = rows_of(s, a), last = face_last(&s->grid, a, 0), sa = s->grid.s[a];
-    const double rate = f->rho / f->dt, whole = f->whole_pressure ? 1.0 : 0.0;
+    const int rows = rows_of(s, a);
 #pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
     for (int row = 0; row < rows; row++) {
         int j, k;
         row_at(s, a, row, &j, &k);
-        const int at = cell(&s->grid, 0, j, k);
-        const double *const restrict e = f->eps + at, *const restrict B = f->drag[a] + at;
-        double *const restrict out = w + at;
-        for (int i = 1; i <= last; i++) {
-            const double m = 0.5 * (e[i] + e[i - sa]), g = m + whole * (1.0 - m);
-            out[i] = m * g / (rate * m + B[i]);
-        }
+        coefficient_row(s, a, w, j, k);
     }
 }
 

@@ -8,9 +8,10 @@
 #include "momentum.h"
 
 /* With grains: x = (rho m_old u/dt + now R + before old + g (drive - grad p) + S)/A on the faces
- * that are solved for; old = R. R and x may be the same. */
+ * that are solved for; old = R. R and x may be the same. Then projection_coefficient into w unless that is
+ * NULL; w may be R. */
 void projection_predict(const struct sim *s, int a, double now, double before, const double *R,
-                        double *old, double *x);
+                        double *old, double *x, double *w);
 
 /* w of component a on all faces, those of the box included. */
 void projection_coefficient(const struct sim *s, int a, double *w);

@@ -338,15 +338,15 @@ static void predict_porous(struct sim *s, double now, double before)
     momentum_porous(s, &ns->momentum, ns->rhs, ns->now, s->fluid.stress);
     for (int a = 0; a < 3; a++)
         projection_predict(s, a, now, before, ns->now[a], ns->old[a],
-                           implicit ? ns->now[a] : s->fluid.u[a]);
+                           implicit ? ns->now[a] : s->fluid.u[a], implicit ? NULL : ns->now[a]);
     if (implicit) {
         fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
         for (int a = 0; a < 3; a++)
             diffusion_solve(s, &ns->momentum, &ns->diffusion, a, ns->now[a], s->fluid.u[a],
                             fmin(1e-8, ns->tolerance));
+        for (int a = 0; a < 3; a++)
+            projection_coefficient(s, a, ns->now[a]);
     }
-    for (int a = 0; a < 3; a++)
-        projection_coefficient(s, a, ns->now[a]);
 }
 
 void fluid_step(struct sim *s)
