@@ -237,6 +237,40 @@ static inline int within(const struct seen_spheres *s, int n, vec3 c, double bou
     return count;
 }
 
+/* Least distance of n spheres from a ball. */
+static double gap_to(const struct seen_spheres *s, int n, vec3 c, double r)
+{
+    double least = (double)INFINITY;
+    for (int b = 0; b < n; b += LANES)
+#pragma omp simd reduction(min : least)
+        for (int k = 0; k < LANES; k++) {
+            const double x = c.x - s->x[b + k], y = c.y - s->y[b + k], z = c.z - s->z[b + k];
+            const double gap = sqrt(x * x + y * y + z * z) - s->r[b + k] - r;
+            least = gap < least ? gap : least;
+        }
+    return least;
+}
+
+/* How far apart two clumps are: exactly where they are of few spheres, else at least. */
+static double gap_between(const struct shape_pair *p, const struct form *i,
+                          const struct form *j)
+{
+    struct seen_spheres s, t;
+    double least = (double)INFINITY;
+    const bool few = i->padded <= LANES && j->padded <= LANES;
+    if (few)
+        place(j, &p->j, 0, LANES, &t);
+    for (int start = 0; start < i->padded; start += WIDE) {
+        const int n_i = i->padded - start < WIDE ? i->padded - start : WIDE;
+        place(i, &p->i, start, n_i, &s);
+        for (int k = 0; few && k < i->n; k++)
+            least = fmin(least, gap_to(&t, LANES, v3(s.x[k], s.y[k], s.z[k]), s.r[k]));
+        if (!few)
+            least = fmin(least, gap_to(&s, n_i, p->j.centre, p->j.size * j->form.bounding));
+    }
+    return least;
+}
+
 static int points(const struct shape_pair *p, int most, struct shape_point *out)
 {
     const struct form *const i = &forms[p->i.species], *const j = &forms[p->j.species];
@@ -268,6 +302,8 @@ static int points(const struct shape_pair *p, int most, struct shape_point *out)
             }
         }
     }
+    if (count == 0 && p->apart)
+        *p->apart = gap_between(p, i, j);
     return count;
 }
 

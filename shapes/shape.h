@@ -68,6 +68,10 @@ struct shape_pair {
                      makes the answer faster (a separating direction, a start of an iteration);
                      zero for a new pair, and now and then zeroed again: the points must not depend
                      on it beyond round-off. */
+    double *
+        apart; /* m, NULL or where a shape that finds no points may leave a lower bound of how far
+                      apart the bodies are: the pair is passed over until they may have moved by that.
+                      It comes as 0, nothing is known. */
 };
 
 struct shape_point {

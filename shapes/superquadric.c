@@ -145,6 +145,8 @@ static int points(const struct shape_pair *p, int most, struct shape_point *out)
     struct superquadric_touch t = {.normal = recall_normal(p)};
     const bool near = superquadric_meet(&i, &j, v3_scale(-1.0, p->j.centre), p->reach, &t);
     keep_normal(p, &t, near && t.r_j > t.r_i);
+    if (!near && p->apart)
+        *p->apart = t.gap;
     if (!near || most < 1)
         return near;
     const vec3 half = v3_scale(0.5 * t.gap, t.normal);

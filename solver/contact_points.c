@@ -10,6 +10,8 @@
 
 enum { AHEAD = 4 }; /* slots, whose memory is fetched before it is needed */
 
+#define TUMBLE 0.1 /* rad a step */
+
 #define CLOSE 0.1 /* of the size: a new contact goes on with the memory of one this near */
 
 struct cut points_cut(const struct sim *s)
@@ -412,6 +414,31 @@ static void fetch(const struct sim *s, const struct cut *cut, int slot)
         __builtin_prefetch(memory + line * 8, 1);
 }
 
+/* m; how far the surfaces of two bodies may have approached each other in the last step: places moved by the
+ * velocities at hand, and turns by spins that a tumbling body's own change by little in a step. */
+static double approached(const struct body *i, const struct body *j, double dt)
+{
+    const double4 v = __builtin_convertvector(i->vel - j->vel, double4);
+    const double4 a = __builtin_convertvector(i->spin, double4),
+                  b = __builtin_convertvector(j->spin, double4);
+    const double turn_i = dt * sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double turn_j = dt * sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    const double way = dt * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const bool slow = turn_i < TUMBLE && turn_j < TUMBLE;
+    return slow ? way + 2.0 * (turn_i * a[3] + turn_j * b[3]) : (double)INFINITY;
+}
+
+/* Takes the last step off what parts a pair; is something left? What is left is the second number of the slot's
+ * head, 0 for a slot that is not live. */
+static bool still_apart(const struct sim *s, const struct slots *l, int slot, real *left)
+{
+    if (!(*left > (real)0.0))
+        return false;
+    *left -=
+        (real)approached(&s->bodies[l->owner[slot]], &s->bodies[l->other[slot]], s->run.dt);
+    return *left > (real)0.0;
+}
+
 static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
                        const struct target *to)
 {
@@ -435,15 +462,23 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             leave(s, l, slot[k]);
             continue;
         }
+        pair.memory = &l->memory[(size_t)slot[k] * s->neighbours.rows];
+        real *const left = &pair.memory[cut.head + 1];
+        if (still_apart(s, l, slot[k], left))
+            continue;
         if (i != before)
             pair.i = points_pose(s, i);
         before = i;
         pair.j = points_pose(s, j);
         pair.j.centre = v3_scale(-1.0, d);
-        pair.memory = &l->memory[(size_t)slot[k] * s->neighbours.rows];
+        double far = 0.0;
+        pair.apart = &far;
         const int n = find(s, &cut, &pair, p, to->report);
         if (n > 0 || l->live[slot[k]] || shape.memory > 0)
             enter_points(s, b, &cut, slot[k], &pair, p, n, to);
+        *left = n == 0 && far > pair.reach ? (real)(far - pair.reach) : (real)0.0;
+        if (*left > (real)0.0 && !l->live[slot[k]])
+            l->live[slot[k]] = LIVE_REACH; /* so that it is kept or cleared with the slot */
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;

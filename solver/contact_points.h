@@ -1,7 +1,8 @@
 /* contact_points.h - any number of contacts in a slot: what pairs and walls have in common.
  *
  * The memory of a slot: shape.memory reals of the shape; SLOT_HEAD reals, of which the first tells how
- * many records, from the first on, may be in use; and the records, one for each contact that there may
+ * many records, from the first on, may be in use, and the second by how much the bodies are apart at least, where
+ * that is known; and the records, one for each contact that there may
  * be: RECORD_HEAD reals - a code, zero for a free record, else made of the id of the contact and of
  * whether it overlapped; its place in the frame of the slot's owner - and the rows of the laws. */
 #ifndef CONTACT_POINTS_H

@@ -7,6 +7,8 @@
 #include "dilated.h"
 #include "envelope.h"
 
+#define MORE 0.1 /* sizes: a direction that parts two parts by that much more serves for long */
+
 /* j as seen by i. */
 struct view {
     vec3 axes[3], place; /* of j's frame in that of i, in sizes of i */
@@ -50,17 +52,19 @@ static double from_box(vec3 x, const struct dilated_part *p)
     return sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-/* Neither the balls nor the boxes of two parts are further apart than the reach. */
-static bool near(const struct dilated_part *a, const struct dilated_part *b,
-                 const struct view *v)
+/* A lower bound of how far apart two parts are: by their balls and their boxes. */
+static double far_apart(const struct dilated_part *a, const struct dilated_part *b,
+                        const struct view *v)
 {
     const vec3 middle = out_of(v, b->middle), apart = v3_sub(middle, a->middle);
-    const double most = a->radius + v->scale * b->radius + v->reach;
-    if (v3_dot(apart, apart) > most * most ||
-        from_box(middle, a) > v->scale * b->radius + v->reach)
-        return false;
+    const double ball_b = v->scale * b->radius, balls = v3_norm(apart) - a->radius - ball_b;
+    if (balls > v->reach)
+        return balls;
+    const double ball = from_box(middle, a) - ball_b;
+    if (ball > v->reach)
+        return ball;
     const vec3 back = v3_scale(1.0 / v->scale, into_own(v->axes, v3_sub(a->middle, v->place)));
-    return from_box(back, b) * v->scale <= a->radius + v->reach;
+    return from_box(back, b) * v->scale - a->radius;
 }
 
 /* What is kept of a pair of parts between steps. */
@@ -165,6 +169,8 @@ struct parts {
     const struct dilated *i, *j;
     const struct polyhedron *a, *b;
     int pair, first_id;
+    double *
+        apart; /* sizes of i; lowered to a bound of how far apart they are where they do not touch */
 };
 
 static int gather(const struct shape_pair *p, const struct parts *w,
@@ -195,13 +201,19 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     struct scratch s;
     struct gap gap;
     struct patch_point q[PATCH_MOST];
-    if (recall(p->memory, kept, w->pair, &keep) && along(w->a, w->b, v, keep.direction) > reach)
-        return have;
+    const double before = *w->apart;
+    if (recall(p->memory, kept, w->pair, &keep)) {
+        const double far = along(w->a, w->b, v, keep.direction);
+        *w->apart = fmin(*w->apart, far - dilation);
+        if (far > reach)
+            return have;
+    }
     turn_vertices(w->b, v, &s);
     const struct points pa = own_points(w->a), pb = {w->b->vertex_room, s.x, s.y, s.z};
-    gap_find(&pa, w->a, &pb, w->b, v->axes, reach, &keep.simplex, &gap);
+    gap_find(&pa, w->a, &pb, w->b, v->axes, reach + MORE, &keep.simplex, &gap);
     keep.direction = gap.normal;
     remember(p->memory, kept, w->pair, &keep);
+    *w->apart = fmin(before, gap.distance - dilation);
     if (gap.distance >= reach)
         return have;
     const struct patch_body a = body_of(w->a, pa, own, v3(0.0, 0.0, 0.0), 1.0),
@@ -223,15 +235,23 @@ int dilated_points(const struct dilated *i, const struct dilated *j,
 {
     struct view v;
     int n = 0, first = 0;
+    double apart = (double)INFINITY;
     look(&p->i, &p->j, p->reach, &v);
     for (int a = 0; a < i->n_parts; a++)
         for (int b = 0; b < j->n_parts; b++) {
             const struct parts w = {
-                i, j, i->part[a].core, j->part[b].core, a * j->n_parts + b, first};
+                i, j, i->part[a].core, j->part[b].core, a * j->n_parts + b, first, &apart};
             first += patch_ids(w.a, w.b);
-            if (i->n_parts + j->n_parts > 2 && !near(&i->part[a], &j->part[b], &v))
-                continue;
+            if (i->n_parts + j->n_parts > 2) {
+                const double far = far_apart(&i->part[a], &j->part[b], &v);
+                if (far > v.reach) {
+                    apart = fmin(apart, far);
+                    continue;
+                }
+            }
             n = part_points(p, &w, &v, how, kept, most, n, out);
         }
+    if (n == 0 && p->apart)
+        *p->apart = p->i.size * apart;
     return n;
 }
