@@ -139,6 +139,25 @@ void reference_create(struct sim *s, struct scene *scene)
     p->table = tables_add(&s->tables, &pattern);
 }
 
+/* Pa, from side to side. A flow that does not feel the grains has no pressure for them: then what it
+ * would take to drive it, the drag on the grains over their porosity, per area [Zhou10, form a]. */
+static double drop_now(const struct pressure_drop *p, const struct sim *s)
+{
+    const struct coupling *const c = &s->coupling;
+    if (c->ways == 2)
+        return fluid_side_pressure(s, p->in) - fluid_side_pressure(s, p->out);
+    double sum = 0.0;
+    for (int i = 0; i < s->grains.n; i++) {
+        const struct share *const w = &c->shares[(size_t)i * c->reach];
+        const double drag[3] = {c->drag[i].x, c->drag[i].y, c->drag[i].z};
+        double eps = 0.0;
+        for (int k = 0; k < c->n_shares[i]; k++)
+            eps += w[k].weight * c->eps[w[k].cell];
+        sum += drag[p->axis] / eps;
+    }
+    return (p->in % 2 ? -sum : sum) / p->area;
+}
+
 /* Sums of the level at hand to means. */
 static void close_level(struct pressure_drop *p, const struct sim *s)
 {
@@ -173,7 +192,7 @@ void reference_watch(struct sim *s)
         return;
     if (!p->begun) {
         p->begun = true;
-        bed_planes(s, p->axis, s->fluid.eps, p->start.eps);
+        bed_planes(s, p->axis, s->coupling.eps, p->start.eps);
         p->start.size = bed_measure(p->start.eps, p->layers, p->h, p->fluid.d, p->solid);
     }
     const int k = flow_level(&s->flow, s->t);
@@ -184,9 +203,9 @@ void reference_watch(struct sim *s)
     struct level *const l = &p->level[k];
     p->current = k;
     for (size_t c = 0; c < s->grid.total; c++)
-        p->sum[c] += s->fluid.eps[c];
+        p->sum[c] += s->coupling.eps[c];
     l->velocity += flow_velocity(&s->flow, s->t);
-    l->drop += fluid_side_pressure(s, p->in) - fluid_side_pressure(s, p->out);
+    l->drop += drop_now(p, s);
     l->samples++;
 }
 

@@ -20,7 +20,7 @@ void coupling_read(struct sim *s, struct scene *scene)
 {
     struct coupling *const c = &s->coupling;
     scene_declare(scene, coupling_keys);
-    c->ways = scene_choice(scene, "coupling", NULL, "ways") == 0 ? 2 : 1;
+    c->ways = scene_choice(scene, "coupling", NULL, "ways") == 0 && !s->fluid.deaf ? 2 : 1;
     c->resistance = v3(1.0, 1.0, 1.0);
     c->implicit = scene_choice(scene, "coupling", NULL, "drag") == 0;
     c->eps_min = scene_real(scene, "coupling", NULL, "porosity_min");

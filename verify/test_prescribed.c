@@ -60,6 +60,29 @@ static void check_carried(void)
     sim_free(s);
 }
 
+/* A grain that fills a ninth of its cell is held in a flow that comes in by a side as [flow] has it: the
+ * velocity is superficial, so the grain sees U eps_f/eps with eps_f that of the faces, see coupling.h. */
+static void check_inflow(void)
+{
+    struct sim *const s = sim_from(
+        BOX "z- = inflow\nz+ = outflow\n[flow]\nvelocity = 1.3 mm/s\nvelocity_end = 2.6 "
+            "mm/s\nsteps = 2\n"
+            "hold = 2 ms\n" WATER
+            "[grains a]\ndiameter = 1.2 mm\ndensity = 2650 kg/m3\nfill = point\nfrozen = yes\n"
+            "position = 3 5 5 mm\nmaterial = m\n[material m]\nstiffness = 100 N/m\n"
+            "restitution = 0.6\nfriction = 0.4\n" RUN);
+    const double d = 1.2e-3, eps = 1.0 - PI / 6.0 * d * d * d / 8e-9;
+    const double seen = 0.5 * (1.0 + eps) / eps;
+    step(s);
+    check_rel(s->coupling.drag[0].z, 3.0 * PI * 3e-3 * d * 1.3e-3 * seen, 1e-12,
+              "drag in a flow from the inflow side, superficial: first level, N");
+    for (int n = 0; n < 3; n++)
+        step(s);
+    check_rel(s->coupling.drag[0].z, 3.0 * PI * 3e-3 * d * 2.6e-3 * seen, 1e-12,
+              "second level");
+    sim_free(s);
+}
+
 /* The stress of a vortex is its centripetal acceleration, rho Du/Dt = -rho omega^2 r. */
 static void check_stress(void)
 {
@@ -111,6 +134,7 @@ int main(void)
 {
     check_formulas();
     check_carried();
+    check_inflow();
     check_stress();
     check_file();
     return check_end();

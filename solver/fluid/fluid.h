@@ -34,6 +34,7 @@ struct fluid {
     int pieces;        /* grain steps per fluid step where no grain sets them (auto) */
     bool implicit_viscosity; /* no limit of the time step by viscosity */
     const char *equation;    /* the form of the momentum equation, for the log; or NULL */
+    bool deaf;               /* it does not feel grains: the coupling is one-way */
     bool whole_pressure;     /* form 27c: the fluid takes all of G; on grains drag/eps alone */
     struct fluid_work *work; /* the answer's own: solver, scratch, fields of steps before */
     long steps;              /* taken so far */

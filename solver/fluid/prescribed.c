@@ -2,7 +2,7 @@
  * and does not feel them; nothing is solved.
  *
  * The velocity is a formula, or is read from a run.nc of silt (the last output; the same grid):
- *   uniform       u = U
+ *   uniform       u = U; without fluid.velocity that of [flow], in by the inflow side
  *   shear         u = U s                          s = x_b/L_b along the direction `across`
  *   parabolic     u = 4 U s (1 - s)
  *   vortex        u = omega x (x - centre)         a rigid rotation about the box's centre
@@ -37,8 +37,8 @@ const struct key fluid_keys[] = {
      "how often grains feel the flow; auto: half a cell at the largest velocity"},
     {"fluid", "field", KEY_CHOICE, "", FIELDS, "uniform", "the velocity field"},
     {"fluid", "velocity", KEY_VECTOR, "m s-1", "(-inf, inf)", "0 0 0 m/s",
-     "U: of the uniform flow, of the far side of a shear, the largest of a parabola, "
-     "amplitude"},
+     "U: of the uniform flow (0: as [flow] has it at the inflow side), of the far side of a "
+     "shear, the largest of a parabola, amplitude"},
     {"fluid", "across", KEY_CHOICE, "", "x | y | z", "z", "direction in which U varies"},
     {"fluid", "spin", KEY_VECTOR, "s-1", "(-inf, inf)", "0 0 0 1/s",
      "angular velocity of the vortex"},
@@ -53,6 +53,7 @@ struct fluid_work {
     vec3 velocity, spin;
     int across;
     double period;
+    double follows;  /* m/s, > 0: U is the largest velocity of [flow], this, and goes with it */
     double *base[3]; /* m/s, the field at t = 0 */
 };
 
@@ -167,14 +168,30 @@ static double largest(const struct sim *s, const struct fluid_work *w)
     return most;
 }
 
-static void check_scene(struct sim *s, struct scene *scene, const struct fluid_work *w)
+/* A uniform flow without a velocity of its own has that of [flow]. */
+static void follow_inflow(const struct sim *s, struct fluid_work *w)
 {
-    if (s->coupling.ways == 2 && scene_given(scene, "coupling", NULL, "ways"))
+    if (w->kind != UNIFORM || v3_norm(w->velocity) > 0.0)
+        return;
+    for (int side = 0; side < 6; side++)
+        if (s->domain.side[side].kind == SIDE_INFLOW && !s->domain.side[side].own_inflow) {
+            w->follows = flow_most(&s->flow);
+            const double in = side % 2 ? -w->follows : w->follows;
+            w->velocity = v3(side / 2 == 0 ? in : 0.0, side / 2 == 1 ? in : 0.0,
+                             side / 2 == 2 ? in : 0.0);
+            return;
+        }
+}
+
+static void check_scene(struct scene *scene, const struct fluid_work *w)
+{
+    if (scene_word(scene, "coupling", NULL, "ways", "two") &&
+        scene_given(scene, "coupling", NULL, "ways"))
         scene_error(scene, "coupling", NULL, "ways",
                     "a prescribed flow does not feel the grains: one, or leave it out");
-    s->coupling.ways = 1;
     if (w->kind != VORTEX && w->kind != FROM_FILE && v3_norm(w->velocity) == 0.0)
-        scene_error(scene, "fluid", NULL, "velocity", "the flow needs its velocity");
+        scene_error(scene, "fluid", NULL, "velocity",
+                    "the flow needs its velocity, or an inflow side and that of [flow]");
     if (w->kind == VORTEX && v3_norm(w->spin) == 0.0)
         scene_error(scene, "fluid", NULL, "spin", "the vortex needs its spin");
     if (w->kind == FROM_FILE && scene_text(scene, "fluid", NULL, "file")[0] == '\0')
@@ -191,9 +208,11 @@ void fluid_create(struct sim *s, struct scene *scene)
     w->period = scene_word(scene, "fluid", NULL, "period", "steady")
                     ? (double)INFINITY
                     : scene_real(scene, "fluid", NULL, "period");
+    follow_inflow(s, w);
+    s->fluid.deaf = true;
     s->fluid.bare = s->grains.n == 0 && !scene_has(scene, "grains");
     const bool made = fluid_state_create(s, scene);
-    check_scene(s, scene, w);
+    check_scene(scene, w);
     if (!made)
         return;
     for (int a = 0; a < 3; a++)
@@ -257,10 +276,12 @@ static void set_time(struct sim *s, double t)
 {
     const struct fluid_work *const w = s->fluid.work;
     const bool steady = !isfinite(w->period);
-    const double swing = steady ? 1.0 : cos(TURN * t / w->period);
+    const bool fixed = steady && !(w->follows > 0.0);
+    const double course = w->follows > 0.0 ? flow_velocity(&s->flow, t) / w->follows : 1.0;
+    const double swing = course * (steady ? 1.0 : cos(TURN * t / w->period));
     const double rate = steady ? 0.0 : -TURN / w->period * sin(TURN * t / w->period);
     for (int a = 0; a < 3; a++)
-        for (size_t c = 0; c < s->grid.total && !steady; c++)
+        for (size_t c = 0; c < s->grid.total && !fixed; c++)
             s->fluid.u[a][c] = swing * w->base[a][c];
     for (int a = 0; a < 3 && !s->fluid.bare; a++)
         acceleration(s, a, rate);
