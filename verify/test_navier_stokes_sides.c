@@ -1,11 +1,12 @@
 /* verify/test_navier_stokes_sides.c - the fluid at its sides and in its choices: continuity
  * between every pair of sides, with and without grains; forms a, b, c in a bed of uniform
  * porosity; rates that are held; steps that adapt; a backflow; thin boxes; grains so fine that
- * drag would limit an explicit step. */
+ * drag would limit an explicit step; a pressure that does not converge. */
 /* slots: drag/stokes porosity/divided solver/fluid/navier_stokes contact/linear */
 #include <omp.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <unistd.h>
 #include "../solver/fluid_state.h"
 #include "check.h"
 #include "harness.h"
@@ -353,6 +354,53 @@ static void check_fine(void)
           "explicit drag is stopped there: exit %d", WEXITSTATUS(status));
 }
 
+/* ---- a pressure that does not converge ---- */
+
+/* A step with a drag that pushes here and there, which leaves coefficients of both signs and is nothing for
+ * conjugate gradients: what the program says on the way out, and how it ends. */
+static int unconverged(char *said, size_t room)
+{
+    int end[2], status = 0;
+    fflush(stdout);
+    if (pipe(end) != 0)
+        return -1;
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(end[1], STDERR_FILENO);
+        struct sim *const s =
+            lattice("a", "x = periodic\ny = periodic\nz- = wall\nz+ = outflow\n", 1);
+        for (int n = 0; n < 5; n++) {
+            for (int a = 0; a < 3; a++)
+                for (size_t c = 0; c < s->grid.total; c++) {
+                    s->fluid.drag[a][c] = -6e6 * (noise() + 0.5);
+                    s->fluid.u[a][c] = 0.01 * noise();
+                }
+            fluid_step(s);
+        }
+        _exit(0);
+    }
+    close(end[1]);
+    size_t n = 0;
+    for (ssize_t more; n + 1 < room && (more = read(end[0], said + n, room - 1 - n)) > 0;)
+        n += (size_t)more;
+    said[n] = '\0';
+    close(end[0]);
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void check_unconverged(void)
+{
+    char said[2000];
+    const int status = unconverged(said, sizeof said);
+    char *const line = strchr(said, '\n');
+    if (line)
+        *line = '\0';
+    check(status == EXIT_UNSTABLE && strstr(said, "the pressure has not converged at t = ") &&
+              strstr(said, "residual"),
+          "a pressure that does not converge ends the run with %d: %s", status, said);
+}
+
 int main(void)
 {
     omp_set_num_threads(1); /* small grids: a team would only wait */
@@ -371,6 +419,7 @@ int main(void)
     check_still("c");
     check_held();
     check_adaptive();
+    check_unconverged();
     check_backflow("centred");
     check_backflow("van_leer");
     check_thin("z = periodic\n", 0, 1, 2);
