@@ -1,4 +1,4 @@
-/* contact_block.c - contacts of spheres: one per slot, worked through shape and laws in blocks. */
+/* contact_block.c - contacts of spheres with each other: one per slot, worked through shape and laws in blocks. */
 #include "contact_block.h"
 
 #include <string.h>
@@ -6,10 +6,10 @@
 #include "contact_laws.h"
 #include "contact_loop.h"
 #include "contact_path.h"
+#include "contact_spheres.h"
 #include "contact_view.h"
-#include "contact_walls.h"
+#include "contact_wall_pack.h"
 #include "sim.h"
-#include "turn.h"
 
 /* Takes in a block of the pack. */
 static void take(struct block *b, struct pack_block *p, int count, const int *slot, bool asked)
@@ -21,15 +21,6 @@ static void take(struct block *b, struct pack_block *p, int count, const int *sl
     memcpy(b->c.j, p->j, sizeof b->c.j);
     if (asked || bond_history > 0)
         memcpy(b->slot, slot, (size_t)count * sizeof *slot);
-}
-
-/* The numbers of eight bodies from one of their halves on: number k of body c in out[k][c]. */
-static inline __attribute__((always_inline)) void turn_in(const struct sim *s, const int *grain,
-                                                          real8 out[8])
-{
-    for (int k = 0; k < 8; k++)
-        out[k] = take8((const real *)&s->bodies[grain[k]].vel);
-    turn8(out);
 }
 
 /* Distances, not yet by the nearest image, and motion of the centres, i less j. */
@@ -48,8 +39,8 @@ static void gather(const struct sim *s, struct block *b)
         put8(&b->vx[c], a[4]);
         put8(&b->vy[c], a[5]);
         put8(&b->vz[c], a[6]);
-        turn_in(s, i, a);
-        turn_in(s, j, d);
+        spheres_turn_in(s, i, a);
+        spheres_turn_in(s, j, d);
         put8(&t->vx[c], a[0] - d[0]);
         put8(&t->vy[c], a[1] - d[1]);
         put8(&t->vz[c], a[2] - d[2]);
@@ -101,7 +92,7 @@ static void nearest(const struct sim *s, struct block *b)
 }
 
 /* Dashpots of contacts that began within the step. */
-static void starts_pairs(struct touch *t, const real *began)
+void spheres_starts(struct touch *t, const real *began)
 {
     for (int c = 0; c < t->n; c++)
         if (began[c] <= (real)0.0 && t->depth[c] > (real)0.0)
@@ -153,80 +144,7 @@ static void meet(const struct sim *s, struct block *b, real *restrict before, st
     }
     r->too_deep = r->too_deep || deep;
     if (begun)
-        starts_pairs(t, began);
-}
-
-/* Lanes without a wall contact of their own repeat the last one. */
-static void pad_walls(struct block *b)
-{
-    struct touch *const t = &b->t;
-    int n = b->n;
-    const int last = n - 1;
-    for (; n % TOUCH_LANES != 0; n++) {
-        real *const array[] = {b->c.dx, b->c.dy, b->c.dz, t->r_i, t->r_j, b->curve, b->inv_m,
-                               t->vx,   t->vy,   t->vz,   b->vx,  b->vy,  b->vz,    b->px,
-                               b->py,   b->pz,   b->qx,   b->qy,  b->qz};
-        for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
-            array[k][n] = array[k][last];
-        b->slot[n] = b->slot[last];
-        b->c.i[n] = b->c.i[last];
-        b->c.j[n] = b->c.j[last];
-        b->c.wall[n] = b->c.wall[last];
-        t->pair[n] = t->pair[last];
-    }
-    b->c.n = t->n = n;
-}
-
-/* Reduced mass and radius against walls, whose curvature is given. */
-static void reduce_walls(struct block *b)
-{
-    struct touch *const t = &b->t;
-    for (int c = 0; c < t->n; c++) {
-        t->m_eff[c] = 1.0 / b->inv_m[c];
-        t->r_eff[c] = t->r_i[c] / (1.0 + b->curve[c] * t->r_i[c]);
-    }
-}
-
-static void starts(struct block *b, const unsigned char *live)
-{
-    struct touch *const t = &b->t;
-    int new = 0;
-    for (int c = 0; c < t->n; c++)
-        t->start[c] = 1.0;
-    for (int c = 0; c < b->n; c++)
-        new |= (live[b->slot[c]] != LIVE_OVERLAP) & (t->depth[c] > 0.0);
-    for (int c = 0; c < b->n && new; c++)
-        if (live[b->slot[c]] != LIVE_OVERLAP && t->depth[c] > 0.0)
-            t->start[c] = laws_first_part(t, c);
-}
-
-/* The memory of a slot is a number of fours: taken as such, then turned. */
-static void load_memory(struct block *b, const real *memory, int rows)
-{
-    const real *const restrict row = (const real *)b->row;
-    for (int k = 0; k < rows; k += 4) {
-        real(*const h)[TOUCH] = &b->history[k];
-        for (int c = 0; c < b->t.n; c++)
-            memcpy(&b->row[c], &memory[(size_t)b->slot[c] * rows + k], sizeof(real4));
-#pragma omp simd
-        for (int c = 0; c < b->t.n; c++) {
-            h[0][c] = row[4 * c];
-            h[1][c] = row[4 * c + 1];
-            h[2][c] = row[4 * c + 2];
-            h[3][c] = row[4 * c + 3];
-        }
-    }
-}
-
-static void guard(const struct block *b, real most, struct report *r)
-{
-    int deep = 0;
-    for (int c = 0; c < b->t.n; c++) {
-        const real rj = b->t.r_j[c] > 0.0 ? b->t.r_j[c] : b->t.r_i[c];
-        const real smaller = b->t.r_i[c] < rj ? b->t.r_i[c] : rj;
-        deep |= b->t.depth[c] > most * smaller;
-    }
-    r->too_deep = r->too_deep || deep;
+        spheres_starts(t, began);
 }
 
 static void mark(const struct block *b, struct slots *l, real reach)
@@ -236,36 +154,9 @@ static void mark(const struct block *b, struct slots *l, real reach)
             (unsigned char)((b->t.depth[c] > -reach) + (b->t.depth[c] > (real)0.0));
 }
 
-/* Keeps what is to be remembered of each contact, nothing where there is none. */
-static void keep(const struct sim *s, struct block *b, struct slots *l)
-{
-    const real reach = (real)s->neighbours.reach;
-    const int rows = s->neighbours.rows;
-    struct touch *const t = &b->t;
-    mark(b, l, reach);
-    for (int k = 0; k < rows; k += 4)
-        for (int c = 0; c < t->n; c += 8) {
-            const real8 gap = -take8(&t->depth[c]);
-            const lane8 touches = gap < reach;
-            real8 h[4], pairs[4];
-            for (int m = 0; m < 4; m++)
-                h[m] = (real8)((lane8)take8(&b->history[k + m][c]) & touches);
-            turn4(h, pairs);
-            for (int m = 0; m < 4; m++) { /* rows m and m + 4 */
-                real two[8];
-                put8(two, pairs[m]);
-                if (c + m < b->n)
-                    memcpy(&l->memory[(size_t)b->slot[c + m] * rows + k], two, sizeof(real4));
-                if (c + m + 4 < b->n)
-                    memcpy(&l->memory[(size_t)b->slot[c + m + 4] * rows + k], two + 4,
-                           sizeof(real4));
-            }
-        }
-}
-
 /* Counts, energy, the largest overlap; the forces of single contacts where someone looks, which
  * goes by the marks of the slots. */
-static void report_all(const struct sim *s, struct block *b, struct slots *l, struct report *r)
+void spheres_report(const struct sim *s, struct block *b, struct slots *l, struct report *r)
 {
     const double reach = s->neighbours.reach;
     mark(b, l, (real)reach);
@@ -278,24 +169,6 @@ static void report_all(const struct sim *s, struct block *b, struct slots *l, st
         if (s->contacts->watched)
             ((double4 *)s->contacts->seen[b->walls])[b->slot[c]] = laws_force(b, c);
     }
-}
-
-/* From overlap to forces; everything that is asked of the bodies is in the block. */
-static void work(struct sim *s, struct block *b, struct slots *l, const struct target *to)
-{
-    b->t.dt = s->run.dt;
-    b->t.time = to->time;
-    shape.overlaps(&s->grains, &b->c, &b->t, &b->l);
-    laws_velocities(b);
-    starts(b, l->live);
-    load_memory(b, l->memory, s->neighbours.rows);
-    laws_apply(s, b);
-    laws_note_broken(s, b, l, to->time);
-    keep(s, b, l);
-    laws_pack(b);
-    guard(b, (real)s->run.overlap_max, to->report);
-    if (to->asked)
-        report_all(s, b, l, to->report);
 }
 
 /* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
@@ -322,7 +195,7 @@ static void levers_pairs(struct block *b)
 }
 
 /* Where no law reaches, nothing is remembered. */
-static void forget(struct block *b, int rows, real reach)
+void spheres_forget(struct block *b, int rows, real reach)
 {
     for (int k = 0; k < rows; k++) {
         real *const restrict h = b->kept[k];
@@ -351,11 +224,11 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             levers_pairs(b);
             laws_note_broken(s, b, l, to->time);
         }
-        forget(b, rows, (real)s->neighbours.reach);
+        spheres_forget(b, rows, (real)s->neighbours.reach);
         laws_pack_line(b);
         add(b, p->to, to);
         if (to->asked)
-            report_all(s, b, l, to->report);
+            spheres_report(s, b, l, to->report);
         if (s->grains.n_frozen > 0)
             laws_add_skeleton(&s->grains, b, to->report);
     }
@@ -363,16 +236,16 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     b->kept = NULL;
 }
 
-void block_work_walls(struct sim *s, struct block *b, const struct target *to)
+static void take_run(struct sim *s, int run)
 {
-    if (b->n == 0)
-        return;
-    b->walls = true;
-    pad_walls(b);
-    reduce_walls(b);
-    work(s, b, &s->neighbours.walls, to);
-    laws_add_walls(b, to);
-    b->n = 0;
+    pack_fill(s, run);
+    wall_pack_fill(s, run);
+}
+
+static void put_back_run(struct sim *s, int run)
+{
+    pack_put_back(s, run);
+    wall_pack_put_back(s, run);
 }
 
 static int rows(const struct sim *s)
@@ -389,9 +262,9 @@ static size_t seen_size(const struct sim *s)
 
 const struct contact_path contact_spheres = {.rows = rows,
                                              .pairs = work_pairs,
-                                             .walls = walls_enter,
+                                             .walls = sphere_walls,
                                              .view = contact_view_slots,
                                              .seen_size = seen_size,
                                              .stop = contact_stop_spheres,
-                                             .take = pack_fill,
-                                             .put_back = pack_put_back};
+                                             .take = take_run,
+                                             .put_back = put_back_run};

@@ -79,8 +79,4 @@ struct target {
     bool asked;  /* energy, counts and overlaps are wanted */
 };
 
-/* Works the wall contacts of spheres that were entered one by one (contact_walls.c), up to TOUCH
- * of them; empties the block. */
-void block_work_walls(struct sim *s, struct block *b, const struct target *to);
-
 #endif

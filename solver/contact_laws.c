@@ -197,6 +197,43 @@ void laws_pack_line(struct block *b)
         pack_line(b, false);
 }
 
+void laws_pack_i(struct block *b)
+{
+    const struct touch *const t = &b->t;
+    const struct levers *const l = &b->l;
+    const bool couples = needs() & TOUCH_COUPLES;
+    const real8 zero = {0.0};
+    for (int c = 0; c < t->n; c += 8) {
+        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
+        const real8 mx = couples ? take8(&t->mx[c]) : zero,
+                    my = couples ? take8(&t->my[c]) : zero;
+        const real8 mz = couples ? take8(&t->mz[c]) : zero;
+        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
+        real8 i[8] = {fx,
+                      fy,
+                      fz,
+                      zero,
+                      iy * fz - iz * fy + mx,
+                      iz * fx - ix * fz + my,
+                      ix * fy - iy * fx + mz,
+                      zero};
+        turn8(i);
+        for (int k = 0; k < 8; k++)
+            put8(b->on[0][c + k], i[k]);
+    }
+}
+
+void laws_couples(const struct block *b, double8 torque[3])
+{
+    if (!(needs() & TOUCH_COUPLES))
+        return;
+    for (int c = 0; c < b->t.n; c += 8) {
+        torque[0] += laws_eight(&b->t.mx[c]);
+        torque[1] += laws_eight(&b->t.my[c]);
+        torque[2] += laws_eight(&b->t.mz[c]);
+    }
+}
+
 /* Notes the bonds that broke; put in order where they are read. */
 void laws_note_broken(struct sim *s, const struct block *b, const struct slots *l, double time)
 {

@@ -34,6 +34,10 @@ void laws_note_broken(struct sim *s, const struct block *b, const struct slots *
 void laws_pack(struct block *b);
 /* The same where the contact point lies on the line of centres: from b->arm_i, arm_j. */
 void laws_pack_line(struct block *b);
+/* Those on i alone: against walls. */
+void laws_pack_i(struct block *b);
+/* Adds the laws' couples to the torque, where there are any. */
+void laws_couples(const struct block *b, double8 torque[3]);
 /* J, stored by the contacts within `reach`; after laws_apply. */
 double laws_energy(struct block *b, double reach, const real *share);
 
@@ -41,6 +45,13 @@ static inline double8 laws_wide(const real row[8])
 {
     real8 a;
     memcpy(&a, row, sizeof a);
+    return __builtin_convertvector(a, double8);
+}
+
+static inline double8 laws_eight(const real *x)
+{
+    real8 a;
+    memcpy(&a, x, sizeof a);
     return __builtin_convertvector(a, double8);
 }
 

@@ -44,9 +44,12 @@ void contact_free(struct sim *s)
     if (!s->contacts)
         return;
     xfree(s->contacts->sums);
-    for (int run = 0; run < s->contacts->runs; run++)
+    for (int run = 0; run < s->contacts->runs; run++) {
         xfree(s->contacts->pack[run].data);
+        wall_pack_free(&s->contacts->wall_pack[run]);
+    }
     xfree(s->contacts->pack);
+    xfree(s->contacts->wall_pack);
     xfree(s->contacts->report);
     xfree(s->contacts->wall_force);
     xfree(s->contacts->wall_sum);
@@ -98,6 +101,8 @@ void contact_prepare(struct sim *s)
         const int runs = w->runs;
         w->runs = nb->runs + nb->runs / 4;
         w->pack = xrealloc(w->pack, (size_t)runs, (size_t)w->runs, sizeof *w->pack);
+        w->wall_pack =
+            xrealloc(w->wall_pack, (size_t)runs, (size_t)w->runs, sizeof *w->wall_pack);
         const size_t sums = (size_t)w->runs * (size_t)s->walls.n + 1;
         xfree(w->report);
         xfree(w->wall_force);
@@ -121,8 +126,7 @@ void contact_put_back(struct sim *s)
         return;
 #pragma omp parallel for schedule(static)
     for (int run = 0; run < s->contacts->runs; run++)
-        if (s->contacts->pack[run].n > 0)
-            shape.path->put_back(s, run);
+        shape.path->put_back(s, run);
 }
 
 /* The contact of a slot is over: nothing is remembered, nothing acts. */
@@ -189,9 +193,9 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
         if (shape.path->put_back)
             shape.path->put_back(s, run);
         choose_pairs(s, run, first, last);
+        walls_choose(s, run, first, last);
         if (shape.path->take)
             shape.path->take(s, run);
-        walls_choose(s, run, first, last);
     }
     b.kept = NULL;
     if (walls || choose)

@@ -46,6 +46,62 @@ void triangle_view(const struct triangle *t, const vec3 *x, struct wall_view *ou
         view_rim(t, at, out);
 }
 
+/* From its nearest point of a segment to a point. */
+struct rim {
+    double x, y, z, square; /* m, m2 */
+    int part;
+};
+
+#define RIM_INLINE static inline __attribute__((always_inline))
+
+/* The segment along e from the origin, where it is nearer to f than what was found before. */
+RIM_INLINE struct rim nearer_rim(struct rim r, double fx, double fy, double fz, double ex,
+                                 double ey, double ez)
+{
+    const double t = (fx * ex + fy * ey + fz * ez) / (ex * ex + ey * ey + ez * ez);
+    const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    const double x = fx - at * ex, y = fy - at * ey, z = fz - at * ez;
+    const double square = x * x + y * y + z * z;
+    const int part = at == t ? WALL_EDGE : WALL_VERTEX;
+    r.x = square < r.square ? x : r.x;
+    r.y = square < r.square ? y : r.y;
+    r.z = square < r.square ? z : r.z;
+    r.part = square < r.square ? part : r.part;
+    r.square = square < r.square ? square : r.square;
+    return r;
+}
+
+/* triangle_view for several: face and rim are both computed, one is taken. The numbers of a triangle are
+ * a row of doubles, which the compiler gathers. */
+void triangle_views(const struct triangle *triangle, struct wall_looks *l)
+{
+    enum { A = 0, E1 = 3, E2 = 6, NORMAL = 9, G1 = 12, G2 = 15, ROW = 18 };
+    _Static_assert(sizeof(struct triangle) == ROW * sizeof(double), "a row of numbers");
+    const double *const row = &triangle->a.x;
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const int t = ROW * l->element[c];
+        const double x = l->x[c] - row[t + A], y = l->y[c] - row[t + A + 1];
+        const double z = l->z[c] - row[t + A + 2];
+        const double ux = row[t + E1], uy = row[t + E1 + 1], uz = row[t + E1 + 2];
+        const double vx = row[t + E2], vy = row[t + E2 + 1], vz = row[t + E2 + 2];
+        const double nx = row[t + NORMAL], ny = row[t + NORMAL + 1], nz = row[t + NORMAL + 2];
+        const double u = x * row[t + G1] + y * row[t + G1 + 1] + z * row[t + G1 + 2];
+        const double v = x * row[t + G2] + y * row[t + G2 + 1] + z * row[t + G2 + 2];
+        const double h = x * nx + y * ny + z * nz;
+        const int face = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0);
+        struct rim r = {.square = (double)INFINITY, .part = WALL_EDGE};
+        r = nearer_rim(r, x, y, z, ux, uy, uz);
+        r = nearer_rim(r, x, y, z, vx, vy, vz);
+        r = nearer_rim(r, x - ux, y - uy, z - uz, vx - ux, vy - uy, vz - uz);
+        l->ax[c] = face ? h * nx : r.x;
+        l->ay[c] = face ? h * ny : r.y;
+        l->az[c] = face ? h * nz : r.z;
+        l->curvature[c] = 0.0;
+        l->part[c] = face ? WALL_FACE : r.part;
+    }
+}
+
 static bool set_triangle(struct triangle *t, const vec3 *c)
 {
     const vec3 e1 = v3_sub(c[1], c[0]), e2 = v3_sub(c[2], c[0]), n = v3_cross(e1, e2);

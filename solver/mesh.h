@@ -32,6 +32,7 @@ struct mesh *mesh_create(const vec3 *corner, int n, char **why);
 void mesh_free(void *mesh);
 
 void triangle_view(const struct triangle *t, const vec3 *x, struct wall_view *out);
+void triangle_views(const struct triangle *t, struct wall_looks *l);
 void mesh_near(const struct mesh *m, vec3 x, double reach, struct found *out);
 
 #endif

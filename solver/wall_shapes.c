@@ -53,6 +53,22 @@ void wall_flat_view(const void *shape, int element, const vec3 *x, struct wall_v
     wall_view_put(out, v3_scale(height(p, v3(x->x, x->y, x->z)), p->normal), 0.0, WALL_FACE);
 }
 
+void wall_flat_views(const void *shape, struct wall_looks *l)
+{
+    const struct wall_flat *const f = shape;
+    const vec3 p = f->point, n = f->normal;
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const double x = l->x[c] - p.x, y = l->y[c] - p.y, z = l->z[c] - p.z;
+        const double h = x * n.x + y * n.y + z * n.z;
+        l->ax[c] = h * n.x;
+        l->ay[c] = h * n.y;
+        l->az[c] = h * n.z;
+        l->curvature[c] = 0.0;
+        l->part[c] = WALL_FACE;
+    }
+}
+
 /* What is behind it is near too: it is to be found. */
 void wall_flat_near(const void *shape, vec3 x, double reach, struct found *out)
 {
@@ -132,6 +148,7 @@ const struct wall_kind wall_side = {.name = "side",
                                     .free = xfree,
                                     .elements = wall_single,
                                     .view = wall_flat_view,
+                                    .views = wall_flat_views,
                                     .near = wall_flat_near,
                                     .behind = wall_flat_behind,
                                     .bounds = wall_flat_bounds,
@@ -160,6 +177,29 @@ void wall_rectangle_view(const vec3 *origin, const vec3 *edge1, const vec3 *edge
     }
 }
 
+void wall_rectangle_views(const vec3 *origin, const vec3 *edge1, const vec3 *edge2,
+                          struct wall_looks *l)
+{
+    const vec3 o = *origin, e = *edge1, f = *edge2, across = v3_cross(e, f);
+    const vec3 n = v3_scale(1.0 / v3_norm(across), across);
+    const double ee = v3_dot(e, e), ff = v3_dot(f, f);
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const double x = l->x[c] - o.x, y = l->y[c] - o.y, z = l->z[c] - o.z;
+        const double u = (x * e.x + y * e.y + z * e.z) / ee;
+        const double v = (x * f.x + y * f.y + z * f.z) / ff;
+        const double a = u < 0.0 ? 0.0 : u > 1.0 ? 1.0 : u;
+        const double b = v < 0.0 ? 0.0 : v > 1.0 ? 1.0 : v;
+        const double h = x * n.x + y * n.y + z * n.z;
+        const int outside = (a != u) + (b != v);
+        l->ax[c] = outside == 0 ? h * n.x : x - a * e.x - b * f.x;
+        l->ay[c] = outside == 0 ? h * n.y : y - a * e.y - b * f.y;
+        l->az[c] = outside == 0 ? h * n.z : z - a * e.z - b * f.z;
+        l->curvature[c] = 0.0;
+        l->part[c] = outside; /* face, edge, vertex */
+    }
+}
+
 /* In the half-plane of x the strip is a segment. */
 void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out)
 {
@@ -182,6 +222,33 @@ void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view
     else if (radius > 0.0 && distance > 0.0)
         curvature = beyond / distance / radius;
     wall_view_put(out, v3_axpy(v3_scale(up, s->axis), beyond, outwards), curvature, part);
+}
+
+void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l)
+{
+    const vec3 foot = strip->foot, axis = strip->axis, across = wall_across(axis);
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const struct wall_strip *const s = &strip[l->element[c]];
+        const double x = l->x[c] - foot.x, y = l->y[c] - foot.y, z = l->z[c] - foot.z;
+        const double h = x * axis.x + y * axis.y + z * axis.z;
+        const double rx = x - h * axis.x, ry = y - h * axis.y, rz = z - h * axis.z;
+        const double r = sqrt(rx * rx + ry * ry + rz * rz);
+        const double inverse = r > 0.0 ? 1.0 / r : 0.0, none = r > 0.0 ? 0.0 : 1.0;
+        const double h0 = s->h0, r0 = s->r0, dh = s->h1 - h0, dr = s->r1 - r0;
+        const double t = ((h - h0) * dh + (r - r0) * dr) / (dh * dh + dr * dr);
+        const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t, up = h - (h0 + at * dh);
+        const double radius = r0 + at * dr, beyond = r - radius;
+        const double distance = sqrt(up * up + beyond * beyond);
+        const bool ends = at != t, edge = ends & (radius > 0.0), tip = ends & (dh != 0.0);
+        const bool curved = !ends & (radius > 0.0) & (distance > 0.0);
+        l->ax[c] = up * axis.x + beyond * (inverse * rx + none * across.x);
+        l->ay[c] = up * axis.y + beyond * (inverse * ry + none * across.y);
+        l->az[c] = up * axis.z + beyond * (inverse * rz + none * across.z);
+        const double over = beyond / ((curved ? distance : 1.0) * (curved ? radius : 1.0));
+        l->curvature[c] = curved ? over : 0.0;
+        l->part[c] = edge ? WALL_EDGE : tip ? WALL_VERTEX : WALL_FACE;
+    }
 }
 
 enum { AROUND = 96 };
@@ -300,6 +367,31 @@ void wall_tube_view(const void *shape, int element, const vec3 *x, struct wall_v
     const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
     wall_view_put(out, v3_scale(beyond, outwards), (beyond > 0.0 ? 1.0 : -1.0) / s->r0,
                   WALL_FACE);
+}
+
+void wall_tube_views(const void *shape, struct wall_looks *l)
+{
+    const struct tube *const t = shape;
+    const struct wall_strip *const s = &t->strip[0];
+    const vec3 foot = s->foot, axis = s->axis, across = wall_across(axis);
+    const double radius = s->r0;
+    if (!t->endless) {
+        wall_strip_views(s, l);
+        return;
+    }
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const double x = l->x[c] - foot.x, y = l->y[c] - foot.y, z = l->z[c] - foot.z;
+        const double h = x * axis.x + y * axis.y + z * axis.z;
+        const double rx = x - h * axis.x, ry = y - h * axis.y, rz = z - h * axis.z;
+        const double r = sqrt(rx * rx + ry * ry + rz * rz), beyond = r - radius;
+        const double inverse = r > 0.0 ? 1.0 / r : 0.0, none = r > 0.0 ? 0.0 : 1.0;
+        l->ax[c] = beyond * (inverse * rx + none * across.x);
+        l->ay[c] = beyond * (inverse * ry + none * across.y);
+        l->az[c] = beyond * (inverse * rz + none * across.z);
+        l->curvature[c] = (beyond > 0.0 ? 1.0 : -1.0) / radius;
+        l->part[c] = WALL_FACE;
+    }
 }
 
 bool wall_tube_behind(const void *shape, vec3 x)

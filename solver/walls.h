@@ -63,6 +63,10 @@ struct wall_seen {
 };
 struct wall_seen wall_see(const struct sim *s, int element, vec3 x);
 void wall_look(const struct sim *s, int element, const vec3 *x, struct wall_seen *out);
+/* The same for elements of one wall (l->element counts within it) from points x, y, z in the frame of
+ * the laboratory, which are overwritten: away, curvature and part; arms, m. */
+void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
+                double (*arm)[WALL_LOOKS]);
 /* Corners of a flat element, m, as seen from x; returns how many, 0 for other elements. */
 int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4]);
 

@@ -58,6 +58,30 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
     wall_rectangle_view(&at, &edge[0], &edge[1], x, out);
 }
 
+/* Like rectangles along the axes: across its own axis a face lies at one height, along the others it
+ * ends at the edges. */
+static void views(const void *shape, struct wall_looks *l)
+{
+    const struct box *const b = shape;
+    const double lx = b->low[0], ly = b->low[1], lz = b->low[2];
+    const double hx = b->high[0], hy = b->high[1], hz = b->high[2];
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const int axis = l->element[c] / 2, end = l->element[c] % 2;
+        const double x = l->x[c], y = l->y[c], z = l->z[c];
+        const double px = axis == 0 ? (end ? hx : lx) : x < lx ? lx : x > hx ? hx : x;
+        const double py = axis == 1 ? (end ? hy : ly) : y < ly ? ly : y > hy ? hy : y;
+        const double pz = axis == 2 ? (end ? hz : lz) : z < lz ? lz : z > hz ? hz : z;
+        const int beside = ((axis != 0) & (px != x)) + ((axis != 1) & (py != y)) +
+                           ((axis != 2) & (pz != z));
+        l->ax[c] = x - px;
+        l->ay[c] = y - py;
+        l->az[c] = z - pz;
+        l->curvature[c] = 0.0;
+        l->part[c] = beside;
+    }
+}
+
 static bool behind(const void *shape, vec3 x)
 {
     const struct box *const b = shape;
@@ -93,6 +117,7 @@ const struct wall_kind wall_box = {.name = "box",
                                    .free = xfree,
                                    .elements = elements,
                                    .view = view,
+                                   .views = views,
                                    .behind = behind,
                                    .bounds = bounds,
                                    .draw = draw};

@@ -26,6 +26,11 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
     wall_strip_view(shape, x, out);
 }
 
+static void views(const void *shape, struct wall_looks *l)
+{
+    wall_strip_views(shape, l);
+}
+
 static void bounds(const void *shape, vec3 *low, vec3 *high)
 {
     wall_strip_bounds(shape, low, high);
@@ -49,6 +54,7 @@ const struct wall_kind wall_disc = {.name = "disc",
                                     .free = xfree,
                                     .elements = wall_single,
                                     .view = view,
+                                    .views = views,
                                     .bounds = bounds,
                                     .sweep = sweep,
                                     .draw = draw};

@@ -62,6 +62,11 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
     triangle_view(&((const struct mesh *)shape)->triangle[element], x, out);
 }
 
+static void views(const void *shape, struct wall_looks *l)
+{
+    triangle_views(((const struct mesh *)shape)->triangle, l);
+}
+
 static void near(const void *shape, vec3 x, double reach, struct found *out)
 {
     mesh_near(shape, x, reach, out);
@@ -106,6 +111,7 @@ const struct wall_kind wall_mesh = {.name = "mesh",
                                     .free = mesh_free,
                                     .elements = elements,
                                     .view = view,
+                                    .views = views,
                                     .near = near,
                                     .bounds = bounds,
                                     .middle = middle,

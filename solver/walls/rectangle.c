@@ -35,6 +35,12 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
     wall_rectangle_view(&p->corner, &p->edge[0], &p->edge[1], x, out);
 }
 
+static void views(const void *shape, struct wall_looks *l)
+{
+    const struct plate *const p = shape;
+    wall_rectangle_views(&p->corner, &p->edge[0], &p->edge[1], l);
+}
+
 static void bounds(const void *shape, vec3 *low, vec3 *high)
 {
     const struct plate *const p = shape;
@@ -71,6 +77,7 @@ const struct wall_kind wall_rectangle = {.name = "rectangle",
                                          .free = xfree,
                                          .elements = wall_single,
                                          .view = view,
+                                         .views = views,
                                          .corners = corners,
                                          .bounds = bounds,
                                          .draw = draw};

@@ -50,6 +50,17 @@ struct wall_canvas {
     vec3 low, high;
 };
 
+/* Elements of one wall as seen each from a point of its own; in the frame of the wall. */
+enum { WALL_LOOKS = 32 };
+struct wall_looks {
+    int n; /* at most WALL_LOOKS */
+    int element[WALL_LOOKS];
+    _Alignas(64) double x[WALL_LOOKS], y[WALL_LOOKS], z[WALL_LOOKS]; /* m, the points */
+    double ax[WALL_LOOKS], ay[WALL_LOOKS], az[WALL_LOOKS];           /* m, away */
+    double curvature[WALL_LOOKS];                                    /* 1/m */
+    int part[WALL_LOOKS];                                            /* enum wall_part */
+};
+
 struct wall_kind {
     const char *name, *summary;
     const struct key *keys; /* of section "wall", besides those of walls.c */
@@ -60,6 +71,9 @@ struct wall_kind {
     /* By address, since the loop over contacts asks it most: structs that are handed over by value
      * are written number by number and read back as vectors, which waits for the memory. */
     void (*view)(const void *shape, int element, const vec3 *x, struct wall_view *out);
+    /* The same for several points at once, away, curvature and part; a plain loop that the compiler
+     * turns into vectors. NULL: by `view`, one after the other, which costs several times as much. */
+    void (*views)(const void *shape, struct wall_looks *l);
     /* Adds the elements whose distance from x is less than reach, in a fixed order. NULL: there
      * are few, all are looked at. */
     void (*near)(const void *shape, vec3 x, double reach, struct found *out);
@@ -94,6 +108,7 @@ struct wall_flat {
 };
 int wall_single(const void *shape); /* one element */
 void wall_flat_view(const void *flat, int element, const vec3 *x, struct wall_view *out);
+void wall_flat_views(const void *flat, struct wall_looks *l);
 void wall_flat_near(const void *flat, vec3 x, double reach, struct found *out);
 bool wall_flat_behind(const void *flat, vec3 x);
 void wall_flat_bounds(const void *flat, vec3 *low, vec3 *high);
@@ -103,6 +118,8 @@ void wall_flat_draw(const void *flat, struct wall_canvas *c);
 /* Nearest point of the rectangle origin + u e1 + v e2, 0 <= u, v <= 1 (e1, e2 at right angles). */
 void wall_rectangle_view(const vec3 *origin, const vec3 *e1, const vec3 *e2, const vec3 *x,
                          struct wall_view *out);
+void wall_rectangle_views(const vec3 *origin, const vec3 *e1, const vec3 *e2,
+                          struct wall_looks *l);
 
 /* Of the strip of revolution through (h0, r0) and (h1, r1) in heights along the axis from `foot`
  * and radii: a disc, tube or frustum. */
@@ -111,6 +128,8 @@ struct wall_strip {
     double h0, r0, h1, r1;
 };
 void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out);
+/* Of strips that share foot and axis: element k is strip[k]. */
+void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l);
 void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c);
 void wall_strip_bounds(const struct wall_strip *s, vec3 *low, vec3 *high);
 double wall_strip_sweep(const struct wall_strip *s, vec3 point, vec3 axis);

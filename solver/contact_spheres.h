@@ -1,0 +1,32 @@
+/* contact_spheres.h - what contacts of spheres with each other (contact_block.c) and with walls
+ * (contact_sphere_walls.c) share. */
+#ifndef CONTACT_SPHERES_H
+#define CONTACT_SPHERES_H
+
+#include "contact_block.h"
+#include "neighbours.h"
+#include "sim.h"
+#include "turn.h"
+
+/* The numbers of eight bodies from one of their halves on: number k of body c in out[k][c]. */
+static inline __attribute__((always_inline)) void
+spheres_turn_in(const struct sim *s, const int *grain, real8 out[8])
+{
+    for (int k = 0; k < 8; k++)
+        out[k] = take8((const real *)&s->bodies[grain[k]].vel);
+    turn8(out);
+}
+
+/* Dashpots of contacts that began within the step; began: overlaps at the last one. */
+void spheres_starts(struct touch *t, const real *began);
+/* Where no law reaches, nothing is remembered. */
+void spheres_forget(struct block *b, int rows, real reach);
+/* Counts, energy, the largest overlap; the forces of single contacts where someone looks, which
+ * goes by the marks of the slots. */
+void spheres_report(const struct sim *s, struct block *b, struct slots *l, struct report *r);
+
+/* The wall contacts of a run. Forces on the walls, and their torques about the pivots, are added to
+ * those of the target. */
+void sphere_walls(struct sim *s, int run, struct block *b, const struct target *to);
+
+#endif
