@@ -25,10 +25,10 @@ struct break_list {
 };
 
 struct contact_work {
-    struct sums *sums;       /* per entry of a run: its grains, then its halo */
-    size_t capacity;         /* of it */
-    struct report *report;   /* per run */
-    struct pack *pack;       /* per run */
+    struct sums *sums;           /* per entry of a run: its grains, then its halo */
+    size_t capacity;             /* of it */
+    struct report *report;       /* per run */
+    struct pack *pack;           /* per run */
     struct wall_pack *wall_pack; /* per run */
     struct sums *wall_force; /* per run and wall: on it, with the torque about its pivot, now */
     struct sums *wall_sum;   /* the same, over the steps since it was last collected */

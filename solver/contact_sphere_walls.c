@@ -149,8 +149,7 @@ static void turn_memory(const struct sim *s, const struct wall_pose *pose, struc
         const double nz = b->look.az[c] * over, x = (double)hx[c], y = (double)hy[c],
                      z = (double)hz[c];
         const double a = (wx * nx + wy * ny + wz * nz) * half_dt, q = a * a;
-        const double t =
-            a * (1.0 + q * (1.0 / 3.0 + q * (2.0 / 15.0 + q * (17.0 / 315.0))));
+        const double t = a * (1.0 + q * (1.0 / 3.0 + q * (2.0 / 15.0 + q * (17.0 / 315.0))));
         const double even = 1.0 / (1.0 + t * t), sine = 2.0 * t * even;
         const double less = 2.0 * t * t * even; /* 1 - cosine */
         const double along = x * nx + y * ny + z * nz;

@@ -83,8 +83,7 @@ static void note_crowd(struct wall_pack *p, int from, int to)
         return;
     if (p->n_crowds == p->crowd_room) {
         const int more = 2 * p->crowd_room + 16;
-        p->crowd =
-            xrealloc(p->crowd, (size_t)p->crowd_room, (size_t)more, sizeof *p->crowd);
+        p->crowd = xrealloc(p->crowd, (size_t)p->crowd_room, (size_t)more, sizeof *p->crowd);
         p->crowd_room = more;
     }
     p->crowd[p->n_crowds++] = (struct wall_crowd){from, to};
@@ -138,8 +137,7 @@ void wall_pack_put_back(struct sim *s, int run)
         const struct wall_block *const b = wall_pack_block(p, k, rows);
         for (int c = 0; c < b->n; c++) {
             const int slot = b->slot[c];
-            l->live[slot] =
-                (unsigned char)((b->depth[c] > -reach) + (b->depth[c] > (real)0.0));
+            l->live[slot] = (unsigned char)((b->depth[c] > -reach) + (b->depth[c] > (real)0.0));
             for (int row = 0; row < rows; row++)
                 l->memory[(size_t)slot * rows + row] = b->memory[row][c];
         }

@@ -4,8 +4,7 @@
 
 /* Points to where their nearest image lies. `middle`: m, of each element, in the laboratory but for
  * the shift. */
-static void nearest(const struct domain *d, struct wall_looks *l,
-                    double (*middle)[WALL_LOOKS])
+static void nearest(const struct domain *d, struct wall_looks *l, double (*middle)[WALL_LOOKS])
 {
     const double lx = d->image[0], ly = d->image[1], lz = d->image[2];
     const double ix = d->inv_image[0], iy = d->inv_image[1], iz = d->inv_image[2];

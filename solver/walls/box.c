@@ -72,8 +72,8 @@ static void views(const void *shape, struct wall_looks *l)
         const double px = axis == 0 ? (end ? hx : lx) : x < lx ? lx : x > hx ? hx : x;
         const double py = axis == 1 ? (end ? hy : ly) : y < ly ? ly : y > hy ? hy : y;
         const double pz = axis == 2 ? (end ? hz : lz) : z < lz ? lz : z > hz ? hz : z;
-        const int beside = ((axis != 0) & (px != x)) + ((axis != 1) & (py != y)) +
-                           ((axis != 2) & (pz != z));
+        const int beside =
+            ((axis != 0) & (px != x)) + ((axis != 1) & (py != y)) + ((axis != 2) & (pz != z));
         l->ax[c] = x - px;
         l->ay[c] = y - py;
         l->az[c] = z - pz;

@@ -17,7 +17,7 @@ void wall_tube_draw(const void *shape, struct wall_canvas *c);
 
 #define WALL_TUBE_REST                                                                         \
     .free = xfree, .elements = wall_tube_elements, .view = wall_tube_view,                     \
-    .views = wall_tube_views, .behind = wall_tube_behind, .bounds = wall_tube_bounds, .sweep = wall_tube_sweep,          \
-    .draw = wall_tube_draw
+    .views = wall_tube_views, .behind = wall_tube_behind, .bounds = wall_tube_bounds,          \
+    .sweep = wall_tube_sweep, .draw = wall_tube_draw
 
 #endif
