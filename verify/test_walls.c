@@ -79,6 +79,67 @@ static void check_distances(void)
     sim_free(s);
 }
 
+/* Elements of wall w from many points at once, as from one by one. */
+static void check_together(const char *wall)
+{
+    struct sim *const s = ball(wall, IN_AIR);
+    const struct wall *const w = &s->walls.wall[6];
+    unsigned seed = 12345;
+    double worst = 0.0;
+    int parts[3] = {0}, unlike = 0;
+    for (int round = 0; round < 60; round++) {
+        struct wall_looks l = {.n = WALL_LOOKS};
+        double arm[3][WALL_LOOKS];
+        vec3 x[WALL_LOOKS];
+        for (int c = 0; c < l.n; c++) {
+            double u[3];
+            for (int k = 0; k < 3; k++) {
+                seed = 1664525u * seed + 1013904223u;
+                u[k] = 0.06 * (double)(seed >> 8) / 16777216.0;
+            }
+            x[c] = v3(u[0], u[1], u[2]);
+            l.element[c] = (int)(seed >> 9) % w->elements;
+            l.x[c] = u[0];
+            l.y[c] = u[1];
+            l.z[c] = u[2];
+        }
+        walls_look(s, w, &l, arm);
+        for (int c = 0; c < l.n; c++) {
+            const struct wall_seen one = wall_see(s, s->walls.first[6] + l.element[c], x[c]);
+            const vec3 away = v3_sub(v3(l.ax[c], l.ay[c], l.az[c]), one.view.away);
+            const vec3 apart = v3_sub(v3(arm[0][c], arm[1][c], arm[2][c]), one.arm);
+            worst = fmax(worst, fmax(v3_norm(away), v3_norm(apart)) / 0.06);
+            worst = fmax(worst, 0.06 * fabs(l.curvature[c] - one.view.curvature));
+            unlike += (enum wall_part)l.part[c] != one.view.part;
+            parts[one.view.part]++;
+        }
+    }
+    check(worst < 1e-12 && unlike == 0,
+          "%.*s: together as one by one, to %.2g (%d faces, %d edges, %d vertices)",
+          (int)strcspn(wall + 9, "\n"), wall + 9, worst, parts[0], parts[1], parts[2]);
+    sim_free(s);
+}
+
+static void check_all_together(void)
+{
+    char *const mesh = floor_mesh(0);
+    const char *const wall[] = {
+        "[wall w]\nkind = plane\npoint = 20 30 20 mm\nnormal = 1 -2 3\n",
+        "[wall w]\nkind = rectangle\ncorner = 10 15 20 mm\nedge1 = 20 10 5 mm\n"
+        "edge2 = -10 20 0 mm\n",
+        "[wall w]\nkind = disc\npoint = 20 30 20 mm\nnormal = 1 2 3\nradius = 15 mm\n"
+        "hole = 6 mm\n",
+        "[wall w]\nkind = cylinder\npoint = 30 28 5 mm\naxis = 0.2 0.3 1\nradius = 17 mm\n",
+        "[wall w]\nkind = cone\npoint = 30 28 5 mm\naxis = 0.2 0.3 1\nradius = 17 mm\n"
+        "radius_end = 5 mm\nlength = 30 mm\ncaps = both\nspin = 3 rad/s\n"
+        "spin_axis = 1 2 0\nspin_point = 10 20 30 mm\n",
+        "[wall w]\nkind = box\nfrom = 10 15 5 mm\nto = 50 45 55 mm\nvelocity = 1 2 0 mm/s\n",
+        mesh};
+    for (size_t k = 0; k < sizeof wall / sizeof wall[0]; k++)
+        check_together(wall[k]);
+    xfree(mesh);
+}
+
 /* Rebound of a ball thrown askew, spinning, on a floor at z = 10 mm: its state after the contact. */
 struct flight {
     vec3 x, v, w;
@@ -218,6 +279,7 @@ static void check_files(void)
 int main(void)
 {
     check_distances();
+    check_all_together();
     check_floors();
     check_edges();
     check_files();
