@@ -109,6 +109,8 @@ value() {
     section packing "How densely spheres pack (one thread; 3 packings of 2000, 3000 poured)" verify/packing.sh
     section dilated "Dilated polyhedra in long runs: cores of nothing, stacks of ten cubes" timeout 900 verify/dilated.sh
     section ellipsoids "How densely ellipsoids without friction pack" timeout 900 verify/ellipsoids.sh
+    section polyhedra_packing "How densely cubes and octahedra without friction pack" \
+        timeout 1200 verify/polyhedra_packing.sh
     section letters "How densely letters pack" timeout 1200 verify/letters.sh
     section shape_hoppers "Prisms and cone pairs run out of a hopper: fraction left" timeout 3600 verify/shape_hoppers.sh
     section tests "Tests of all modules" tests
