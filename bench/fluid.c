@@ -337,6 +337,8 @@ int main(int argc, char **argv)
     porous("form a, centred, tolerance 0.1", "convection = centred\ntolerance = 0.1\n");
     porous("form a, van Leer, tolerance 1e-6", "tolerance = 1e-6\n");
     porous("form b, van Leer, tolerance 1e-6", "form = b\ntolerance = 1e-6\n");
+    porous("form a, van Leer, implicit viscosity, 1e-6",
+           "viscous = implicit\ntolerance = 1e-6\n");
     printf(" verb by verb, form a, van Leer\n");
     porous_verbs();
     return 0;

@@ -14,6 +14,8 @@
 #include <string.h>
 #include "fluid_state.h"
 
+#define INLINE static inline __attribute__((always_inline))
+
 enum { MOST = 1000 }; /* iterations */
 
 void diffusion_create(struct diffusion *d, const struct sim *s)
@@ -97,15 +99,38 @@ double diffusion_open(const struct sim *s, const struct momentum *m, enum form f
     return s->fluid.mu * sum;
 }
 
-/* rho eps/dt + B of a face, over eps for form a. */
-static double diagonal(const struct sim *s, const struct momentum *m, int a, int c)
+/* The diagonal of a row of faces: A = rho eps/dt + B, over eps for form a. */
+struct diagonal {
+    const double *e, *before, *B;
+    double rate,
+        even; /* kg/(m3 s): rho/dt; mu sum 1/h2: half of L's in cells of even size, away from sides */
+    bool form_a;
+};
+
+static struct diagonal diagonal_of_row(const struct sim *s, const struct momentum *m, int a,
+                                       int row)
 {
     const struct fluid *const f = &s->fluid;
-    const double rate = f->rho / f->dt;
-    if (f->bare)
-        return rate;
-    const double eps = grid_face(f->eps, c, s->grid.s[a]);
-    return m->form == FORM_A ? rate + f->drag[a][c] / eps : rate * eps + f->drag[a][c];
+    const struct grid *const g = &s->grid;
+    struct diagonal d = {f->eps + row, f->eps + row - g->s[a], f->drag[a] + row, f->rho / f->dt,
+                         0.0,          m->form == FORM_A};
+    for (int b = 0; b < 3; b++)
+        d.even += m->skip[b] ? 0.0 : f->mu / (g->h[b] * g->h[b]);
+    return d;
+}
+
+INLINE double diagonal_at(const struct diagonal *d, bool form_a, int i)
+{
+    const double eps = 0.5 * (d->e[i] + d->before[i]);
+    return form_a ? d->rate + d->B[i] / eps : d->rate * eps + d->B[i];
+}
+
+/* That of A - L/2, which scales the residual. */
+INLINE double scale_at(const struct diagonal *d, bool form_a, int i)
+{
+    const double eps = 0.5 * (d->e[i] + d->before[i]);
+    return form_a ? 1.0 / (d->rate + d->B[i] / eps + d->even)
+                  : 1.0 / (d->rate * eps + d->B[i] + eps * d->even);
 }
 
 /* A run over the rows of faces of component a that are solved for, those of open sides too; a
@@ -203,27 +228,18 @@ static double first_residual(const struct sim *s, const struct momentum *m, stru
         if (!faces_of_row(s, a, j, k, &r))
             continue;
         laplace_of_row(s, m, a, j, k, &r, u, d->r + r.c);
-        for (int c = r.c + r.first; c <= r.c + r.last; c++) {
-            const double A = diagonal(s, m, a, c);
-            d->r[c] += A * (x[c] - u[c]);
-            d->q[c] = d->r[c] / A;
-            d->d[c] = 0.0;
+        const struct diagonal w = diagonal_of_row(s, m, a, r.c);
+        double *const restrict res = d->r + r.c, *const restrict q = d->q + r.c;
+        const double *const restrict to = x + r.c, *const restrict from = u + r.c;
+        for (int i = r.first; i <= r.last; i++) {
+            const double A = w.form_a ? diagonal_at(&w, true, i) : diagonal_at(&w, false, i);
+            res[i] += A * (to[i] - from[i]);
+            q[i] = res[i] / A;
         }
+        memset(d->d + r.c + r.first, 0, (size_t)(r.last - r.first + 1) * sizeof(double));
         d->part[row] = row_dot(&r, d->q, d->q);
     }
     return add_rows(d, rows);
-}
-
-/* The diagonal of A - L/2 for cells of even size away from sides: scales the residual. */
-static double scale_of(const struct sim *s, const struct momentum *m, int a, int c)
-{
-    const struct grid *const g = &s->grid;
-    double sum = 0.0;
-    for (int b = 0; b < 3; b++)
-        sum += m->skip[b] ? 0.0 : 1.0 / (g->h[b] * g->h[b]);
-    const double eps =
-        m->form == FORM_A || s->fluid.bare ? 1.0 : grid_face(s->fluid.eps, c, g->s[a]);
-    return 1.0 / (diagonal(s, m, a, c) + eps * s->fluid.mu * sum);
 }
 
 /* z = r scaled, in q; returns r . z. With alpha, before that, u += alpha d, r -= alpha q. */
@@ -231,7 +247,6 @@ static double scaled(const struct sim *s, const struct momentum *m, struct diffu
                      double alpha, double *u)
 {
     const int rows = rows_of(s, a);
-    const double even = s->fluid.bare ? scale_of(s, m, a, 0) : 0.0;
 #pragma omp parallel for schedule(static) if (s->grid.total > GRID_SMALL)
     for (int row = 0; row < rows; row++) {
         struct run_of_faces r;
@@ -243,16 +258,13 @@ static double scaled(const struct sim *s, const struct momentum *m, struct diffu
         double *const restrict res = d->r + r.c, *const restrict q = d->q + r.c;
         double *const restrict x = u + r.c;
         const double *const restrict way = d->d + r.c;
+        const struct diagonal w = diagonal_of_row(s, m, a, r.c);
         for (int i = r.first; i <= r.last; i++) {
+            const double left = res[i] - alpha * q[i];
             x[i] += alpha * way[i];
-            res[i] -= alpha * q[i];
+            res[i] = left;
+            q[i] = left * (w.form_a ? scale_at(&w, true, i) : scale_at(&w, false, i));
         }
-        if (s->fluid.bare)
-            for (int i = r.first; i <= r.last; i++)
-                q[i] = even * res[i];
-        else
-            for (int i = r.first; i <= r.last; i++)
-                q[i] = scale_of(s, m, a, r.c + i) * res[i];
         d->part[row] = row_dot(&r, d->q, d->r);
     }
     return add_rows(d, rows);
@@ -287,8 +299,12 @@ static double apply(const struct sim *s, const struct momentum *m, struct diffus
         if (!faces_of_row(s, a, j, k, &r))
             continue;
         laplace_of_row(s, m, a, j, k, &r, d->d, d->q + r.c);
-        for (int c = r.c + r.first; c <= r.c + r.last; c++)
-            d->q[c] = diagonal(s, m, a, c) * d->d[c] - 0.5 * d->q[c];
+        const struct diagonal w = diagonal_of_row(s, m, a, r.c);
+        double *const restrict q = d->q + r.c;
+        const double *const restrict way = d->d + r.c;
+        for (int i = r.first; i <= r.last; i++)
+            q[i] = (w.form_a ? diagonal_at(&w, true, i) : diagonal_at(&w, false, i)) * way[i] -
+                   0.5 * q[i];
         d->part[row] = row_dot(&r, d->d, d->q);
     }
     return add_rows(d, rows);

@@ -343,7 +343,7 @@ static void predict_porous(struct sim *s, double now, double before)
         fluid_velocity_sides(s, s->t + 0.5 * s->fluid.dt);
         for (int a = 0; a < 3; a++)
             diffusion_solve(s, &ns->momentum, &ns->diffusion, a, ns->now[a], s->fluid.u[a],
-                            fmin(1e-8, ns->tolerance));
+                            1e-8);
         for (int a = 0; a < 3; a++)
             projection_coefficient(s, a, ns->now[a]);
     }
