@@ -239,7 +239,7 @@ int main(int argc, char **argv)
     sim_create(s, scene, &f);
     if (o.threads == 0)
         fit_threads(s);
-    if (o.check)
+    if (o.check && (f.n > 0 || scene_errors(scene) == 0))
         feasibility_print(stdout, s, &f);
     scene_finish(scene);
     if (!o.check)

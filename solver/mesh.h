@@ -27,6 +27,10 @@ struct mesh {
  * and what is wrong with the file in *why (free with xfree). */
 vec3 *mesh_read_stl(const char *path, int *n, char **why);
 
+/* The triangles with edges of at most `most` along x, y, z (INFINITY: of any length), each edge
+ * halved as often as it takes (not beyond four million triangles); takes `corner`, and returns what replaces it. */
+vec3 *mesh_split(vec3 *corner, int *n, const double most[3]);
+
 /* The mesh of n triangles; NULL, and why, where one is degenerate or not finite. */
 struct mesh *mesh_create(const vec3 *corner, int n, char **why);
 void mesh_free(void *mesh);

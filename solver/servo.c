@@ -42,6 +42,11 @@ void servo_read(struct wall *w, struct scene *scene)
     w->motion.direction = wall_unit_vector(scene, name, "direction");
     if (!(o->scale > 0.0))
         scene_error(scene, "wall", name, stress ? "stress" : "push", "must not be zero");
+    if (fabs(v3_dot(w->motion.velocity, w->motion.direction)) >
+        1e-9 * v3_norm(w->motion.velocity))
+        scene_error(
+            scene, "wall", name, "velocity",
+            "a servo sets the speed along its direction: only across it may it be given");
     if (w->motion.amplitude > 0.0)
         scene_error(scene, "wall", name, "amplitude", "a servo cannot vibrate too");
 }

@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include "../shapes/shape.h"
 #include "sim.h"
 
 const struct key wall_keys[] = {
@@ -377,60 +376,6 @@ bool walls_named(const struct sim *s)
         if (s->walls.wall[k].kind != &wall_side)
             return true;
     return false;
-}
-
-/* The same for a grain as it lies: as part of the balls by which it touches walls, times its radius. A
- * convex shape without them is only seen behind a wall. */
-static double grain_gap(const struct sim *s, int i, int *which)
-{
-    const struct grains *const g = &s->grains;
-    const vec3 x = g->pos[i];
-    if (!g->orientation)
-        return walls_gap(s, x, g->radius[i], 0.0, which);
-    if (!shape.balls)
-        return walls_gap(s, x, 0.0, 0.0, which);
-    const double size = g->radius[i] / g->species[g->kind[i]].form.bounding;
-    const struct mat3 m = quat_matrix(g->orientation[i]);
-    int n = 0;
-    const struct shape_ball *const ball = shape.balls(g->kind[i], &n);
-    double least = 0.0;
-    for (int b = 0; b < n; b++) {
-        const vec3 c = v3_add(x, mat3_turn(&m, v3_scale(size, ball[b].centre)));
-        const double r = size * ball[b].radius;
-        int k = 0;
-        const double gap = walls_gap(s, c, r, 0.0, &k) / r * g->radius[i];
-        if (gap < least) {
-            least = gap;
-            *which = k;
-        }
-    }
-    return least;
-}
-
-void walls_check(struct sim *s, struct scene *scene)
-{
-    const struct grains *const g = &s->grains;
-    for (int i = 0; i < g->n; i++) {
-        const vec3 x = g->pos[i];
-        int k = 0;
-        if (g->inv_mass[i] == 0.0)
-            continue;
-        const double gap = grain_gap(s, i, &k);
-        if (gap >= -s->run.overlap_max * g->radius[i])
-            continue;
-        const char *const name = s->walls.wall[k].name;
-        if (isinf(gap))
-            scene_error(scene, "wall", name, NULL,
-                        "a grain starts behind it, at %.6g %.6g %.6g m: is it turned the wrong "
-                        "way, or do from and to of the grains reach too far?",
-                        x.x, x.y, x.z);
-        else
-            scene_error(scene, "wall", name, NULL,
-                        "a grain starts inside it, at %.6g %.6g %.6g m, by %.3g of its radius "
-                        "(run.overlap_max = %g)",
-                        x.x, x.y, x.z, -gap / g->radius[i], s->run.overlap_max);
-        return;
-    }
 }
 
 void walls_impulse(vec3 *force, vec3 *sum, vec3 *impulse, vec3 now, int steps, double dt)

@@ -52,7 +52,8 @@ extern const struct key wall_keys[];
 /* Reads every wall but its material; before the grains, which keep clear of walls. */
 void walls_create(struct sim *s, struct scene *scene);
 void walls_materials(struct sim *s, struct scene *scene); /* once the materials are known */
-/* A grain that moves must not start inside or behind a wall: else an error of the scene. */
+/* Walls must lie in the box and leave room within a period, and a grain that moves must not start
+ * inside or behind one: else an error of the scene. */
 void walls_check(struct sim *s, struct scene *scene);
 void walls_free(struct sim *s);
 

@@ -59,16 +59,16 @@ density  = 1056 kg/m3
 count    = 2500
 fill     = settle
 material = disc
-from     = 496 0 1150 mm
-to       = 1504 8.9 1800 mm
+from     = 740 0 865 mm
+to       = 1260 8.9 1400 mm
 [grains large]
 diameter = 8.9 mm
 density  = 1056 kg/m3
 count    = 500
 fill     = settle
 material = disc
-from     = 496 0 1150 mm
-to       = 1504 8.9 1800 mm
+from     = 740 0 865 mm
+to       = 1260 8.9 1400 mm
 [material disc]
 young            = 4 MPa
 poisson          = 0.49
@@ -84,6 +84,6 @@ cell = 20 mm
 series = 50 ms
 [run]
 end         = $end s
-overlap_max = 0.4
+overlap_max = 0.5
 TEXT
 }

@@ -276,8 +276,35 @@ static void check_files(void)
     expect_refused("a wrong count", binary, sizeof binary, "wrong count");
 }
 
+/* A floor of two triangles that span both periods is felt everywhere, as its plane is. */
+static void check_periods(void)
+{
+    const vec3 p = v3(0.0, 0.0, 0.011), q = v3(0.06, 0.0, 0.011), r = v3(0.0, 0.06, 0.011),
+               o = v3(0.06, 0.06, 0.011);
+    const vec3 two[6] = {p, q, r, q, o, r};
+    char *const wall = stl_wall(two, 2);
+    char *const text = xprintf(
+        "%s[domain]\nsize = 60 60 60 mm\nx = periodic\ny = periodic\n[run]\nend = 1 s\n"
+        "[grains a]\ndiameter = 5 mm\ndensity = 2385 kg/m3\nfill = point\n"
+        "[material a]\nyoung = 2e7 Pa\npoisson = 0.3\nrestitution = 0.7\nfriction = 0.4\n",
+        wall);
+    struct sim *const s = sim_from(text);
+    double worst = 0.0;
+    for (int i = 0; i < 4096; i++) {
+        const vec3 x = v3(0.06 * (i % 64 + 0.37) / 64.0, 0.06 * (i / 64 + 0.61) / 64.0, 0.0132);
+        worst = fmax(worst, fabs(walls_gap(s, x, 0.0, 0.005, NULL) - 0.0022));
+    }
+    check_abs(worst, 0.0, 1e-16,
+              "a floor of two triangles as wide as the periods: its distance");
+    check(s->walls.first[s->walls.n] > 2, "they were cut");
+    sim_free(s);
+    xfree(text);
+    floor_remove(wall);
+}
+
 int main(void)
 {
+    check_periods();
     check_distances();
     check_all_together();
     check_floors();

@@ -1,6 +1,7 @@
 /* solver/walls/mesh.c - a surface of triangles from an STL file, felt from both sides.
  *
- * x = shift + R (scale X): X in the file, R turns about x, then y, then z. */
+ * x = shift + R (scale X): X in the file, R turns about x, then y, then z. Triangles longer than 0.4 of a
+ * period are cut (mesh_split). */
 #include "../bed_file.h"
 #include "../mesh.h"
 
@@ -35,12 +36,20 @@ static void *read(struct scene *scene, const char *name, const struct domain *d)
     char *why = NULL;
     int n = 0;
     struct mesh *m = NULL;
-    (void)d;
-    vec3 *const corner = mesh_read_stl(path, &n, &why);
+    double longest[3];
+    vec3 *corner = mesh_read_stl(path, &n, &why);
+    for (int a = 0; a < 3; a++)
+        longest[a] = d->periodic[a] ? 0.4 * d->size[a] : (double)INFINITY;
     for (int i = 0; corner && i < 3 * n; i++)
         corner[i] = v3_add(shift, turn(v3_scale(scale, corner[i]), angle));
     if (corner) {
+        const int found = n;
         m = mesh_create(corner, n, &why);
+        corner = why ? corner : mesh_split(corner, &n, longest);
+        if (n > found) {
+            mesh_free(m);
+            m = mesh_create(corner, n, &why);
+        }
         if (why)
             scene_error(scene, "wall", name, "file", "%s: %s", path, why);
     } else if (file[0] != '\0') {
