@@ -59,7 +59,6 @@ static void check_grains(const struct sim *s, struct scene *scene)
     }
 }
 
-
 static double along(vec3 v, int a)
 {
     return a == 0 ? v.x : a == 1 ? v.y : v.z;
@@ -88,8 +87,8 @@ static void element_bounds(const struct wall *w, int element, vec3 *low, vec3 *h
     *low = n > 0 ? corner[0] : w->low;
     *high = n > 0 ? corner[0] : w->high;
     for (int c = 1; c < n; c++) {
-        *low = v3(fmin(low->x, corner[c].x), fmin(low->y, corner[c].y),
-                  fmin(low->z, corner[c].z));
+        *low =
+            v3(fmin(low->x, corner[c].x), fmin(low->y, corner[c].y), fmin(low->z, corner[c].z));
         *high = v3(fmax(high->x, corner[c].x), fmax(high->y, corner[c].y),
                    fmax(high->z, corner[c].z));
     }
@@ -102,8 +101,8 @@ static bool runs_along(const struct wall *w, int element, vec3 middle, int axis,
     w->kind->view(w->shape, element, &middle, &here);
     for (int side = -1; side <= 1; side += 2) {
         const double d = 0.45 * side * width;
-        const vec3 x = v3_add(middle, v3(axis == 0 ? d : 0.0, axis == 1 ? d : 0.0,
-                                         axis == 2 ? d : 0.0));
+        const vec3 x =
+            v3_add(middle, v3(axis == 0 ? d : 0.0, axis == 1 ? d : 0.0, axis == 2 ? d : 0.0));
         w->kind->view(w->shape, element, &x, &there);
         if (v3_norm(v3_sub(here.away, there.away)) > 1e-9 * width)
             return false;
