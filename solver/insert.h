@@ -82,8 +82,9 @@ bool insert_changes(const struct sim *s); /* the number of grains may change */
  * nothing in a scene without sources and sinks. */
 void insert_step(struct sim *s);
 void insert_expect(FILE *out,
-                   const struct sim *s); /* what the sources will have been asked for */
-void insert_report(struct sim *s);       /* asked and done, removed, sizes: to the summary */
+                   const struct sim *s);     /* what the sources will have been asked for */
+double insert_expected(const struct sim *s); /* grains, of all sources */
+void insert_report(struct sim *s); /* asked and done, removed, sizes: to the summary */
 
 /* A grain of this species as the last one, at rest in nothing; returns its index. */
 int insert_grain(struct sim *s, int species, vec3 pos, double diameter, vec3 vel);

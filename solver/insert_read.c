@@ -205,20 +205,42 @@ void insert_free(struct sim *s)
     xfree(s->traffic.sink);
 }
 
+/* Grains that a source will have been asked for by the end. */
+static double expected_of(const struct sim *s, const struct source *o, double mean)
+{
+    const double time = fmax(0.0, fmin(s->run.end, o->end) - o->start);
+    const double n = o->rate > 0.0 ? o->rate * time : o->mass_flow * time / mean;
+    return floor(fmin(n, fmin(o->count_most, o->mass_most / mean)));
+}
+
+/* kg, of a grain of a source. */
+static double mean_mass(const struct sim *s, const struct source *o)
+{
+    const struct species *const sp = &s->grains.species[o->species];
+    return sp->density * grains_volume(o->species, cbrt(sp->sizes.mean_cube));
+}
+
+double insert_expected(const struct sim *s)
+{
+    double n = 0.0;
+    for (int k = 0; k < s->traffic.n_sources; k++) {
+        const struct source *const o = &s->traffic.source[k];
+        n += expected_of(s, o, mean_mass(s, o));
+    }
+    return n;
+}
+
 void insert_expect(FILE *out, const struct sim *s)
 {
     for (int k = 0; k < s->traffic.n_sources; k++) {
         const struct source *const o = &s->traffic.source[k];
         const struct species *const sp = &s->grains.species[o->species];
-        const double mean = sp->density * grains_volume(o->species, cbrt(sp->sizes.mean_cube));
-        const double time = fmax(0.0, fmin(s->run.end, o->end) - o->start);
-        double n = o->rate > 0.0 ? o->rate * time : o->mass_flow * time / mean;
-        n = fmin(n, fmin(o->count_most, o->mass_most / mean));
+        const double mean = mean_mass(s, o), n = expected_of(s, o, mean);
         fprintf(
             out,
             "insert %s: about %.0f grains of %s, %.4g kg, by t = %g s; D10 %.4g, D50 %.4g, D90 "
             "%.4g m by mass\n",
-            o->name, floor(n), sp->name, n * mean, fmin(s->run.end, o->end),
+            o->name, n, sp->name, n * mean, fmin(s->run.end, o->end),
             sizes_by_mass(&sp->sizes, 0.1), sizes_by_mass(&sp->sizes, 0.5),
             sizes_by_mass(&sp->sizes, 0.9));
     }

@@ -104,13 +104,12 @@ static void summarise(struct sim *s, double begin)
     }
     summary_number(&s->summary, "simulated_time", s->t, "s");
     summary_number(&s->summary, "steps", (double)s->step, "1");
-    summary_number(&s->summary, "grain_steps", (double)s->substep * s->grains.n, "1");
+    summary_number(&s->summary, "grain_steps", s->grain_steps, "1");
     const double loop = s->timers.seconds[TIME_MOTION] + s->timers.seconds[TIME_NEIGHBOURS] +
                         s->timers.seconds[TIME_SORT] + s->timers.seconds[TIME_SEARCH] +
                         s->timers.seconds[TIME_CONTACTS] + s->timers.seconds[TIME_GATHER];
     if (s->substep > 0 && loop > 0.0)
-        summary_number(&s->summary, "grain_steps_per_second",
-                       (double)s->substep * s->grains.n / loop, "s-1");
+        summary_number(&s->summary, "grain_steps_per_second", s->grain_steps / loop, "s-1");
     drag_grains_report(s);
     summary_number(&s->summary, "active_choices", (double)s->neighbours.choices, "1");
     summary_number(&s->summary, "list_builds", (double)s->neighbours.builds, "1");
@@ -134,12 +133,12 @@ static void summarise(struct sim *s, double begin)
 static int advance(struct sim *s)
 {
     const double end = s->run.end - 1e-9 * s->run.dt * s->run.substeps;
-    const double work = (double)s->run.substeps * s->grains.n +
-                        (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
+    const double cells = (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
     double next_output = s->run.output_every, next_sample = s->run.series_every;
     struct progress progress;
     progress_start(&progress, 0.0, s->run.end, "running");
     while (s->t < end && !s->run.done && !caught) {
+        const double before = s->grain_steps;
         step(s);
         const double clock = wall_clock(), slack = 1e-9 * s->run.end;
         probes_watch(s);
@@ -156,7 +155,7 @@ static int advance(struct sim *s)
                 next_output += s->run.output_every;
         }
         timer_add(&s->timers, TIME_OUTPUT, clock);
-        progress_update(&progress, s->t, work);
+        progress_update(&progress, s->t, s->grain_steps - before + cells);
     }
     progress_end(&progress);
     if (caught)

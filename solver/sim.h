@@ -66,10 +66,11 @@ struct sim {
     struct series series;
     struct tables tables;
     struct summary summary;
-    long substep;   /* grain steps since the start, settling included */
-    bool loaded;    /* some grain bears a load, see motion_sense_loads */
-    double overlap; /* largest overlap over the smaller radius at the last step */
-    double elastic; /* J in the springs of the contacts, when last asked for */
+    long substep;       /* grain steps since the start, settling included */
+    double grain_steps; /* the same times the grains that there were */
+    bool loaded;        /* some grain bears a load, see motion_sense_loads */
+    double overlap;     /* largest overlap over the smaller radius at the last step */
+    double elastic;     /* J in the springs of the contacts, when last asked for */
     struct probes *probes;
     void *reference; /* state of the reference answer */
 };

@@ -71,6 +71,7 @@ void step_grains(struct sim *s, int n)
         motion_guard(s);
         left -= done;
         s->substep += done;
+        s->grain_steps += (double)done * s->grains.n;
         drifted = left > 0; /* the team stopped for a new list */
         if (drifted) {
             neighbours_rebuild(s); /* times its parts */
