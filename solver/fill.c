@@ -48,7 +48,8 @@ static struct fill_region region_read(struct sim *s, struct scene *scene, const 
                         "the region must lie inside the box, from below to");
         r.open[a] = s->domain.periodic[a] && r.from[a] == 0.0 && r.to[a] == size;
         if (!r.open[a] && r.to[a] - r.from[a] < widest)
-            scene_error(scene, "grains", name, "diameter", "is wider than the region (%g m)",
+            scene_error(scene, "grains", name, "diameter",
+                        "the widest grain, %g m, is wider than the region (%g m)", widest,
                         r.to[a] - r.from[a]);
     }
     return r;
