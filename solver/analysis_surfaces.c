@@ -20,6 +20,10 @@ static const struct key keys[] = {
     {"surface", "high", KEY_REAL, "1", "(0, 1]", "80 %", "from this part"},
     {"surface", "middle", KEY_REAL, "1", "(0, 1]", "50 %",
      "the line is fitted over this middle part of a slope"},
+    {"surface", "from", KEY_VECTOR, "m", "box | (-inf, inf)", "box",
+     "lowest corner of what is looked at; default: the box"},
+    {"surface", "to", KEY_VECTOR, "m", "box | (-inf, inf)", "box",
+     "its highest corner, as below a funnel"},
     {"surface", "flying", KEY_CHOICE, "", "off | on", "off",
      "grains that touch nothing count too"},
     {0},
@@ -49,6 +53,14 @@ static void read_surface(struct sim *s, struct scene *scene, struct surface *f)
     f->low = scene_real(scene, "surface", name, "low");
     f->high = scene_real(scene, "surface", name, "high");
     f->middle = scene_real(scene, "surface", name, "middle");
+    f->from = v3(-(double)INFINITY, -(double)INFINITY, -(double)INFINITY);
+    f->to = v3((double)INFINITY, (double)INFINITY, (double)INFINITY);
+    if (!scene_word(scene, "surface", name, "from", "box"))
+        f->from = scene_vector(scene, "surface", name, "from");
+    if (!scene_word(scene, "surface", name, "to", "box"))
+        f->to = scene_vector(scene, "surface", name, "to");
+    if (!(f->from.x < f->to.x && f->from.y < f->to.y && f->from.z < f->to.z))
+        scene_error(scene, "surface", name, "to", "must lie above surface.from in x, y and z");
     f->flying = scene_choice(scene, "surface", name, "flying") == 1;
     double mean = 0.0;
     for (int k = 0; k < g->n_species; k++)

@@ -21,6 +21,12 @@ static unsigned char *resting(const struct sim *s, const struct contact_view *v,
     return rests;
 }
 
+static bool inside(const struct surface *f, vec3 x)
+{
+    return x.x >= f->from.x && x.x <= f->to.x && x.y >= f->from.y && x.y <= f->to.y &&
+           x.z >= f->from.z && x.z <= f->to.z;
+}
+
 /* Tops of the columns, x y h. */
 static double *find_points(const struct sim *s, const struct contact_view *v,
                            const struct surface *f, int *n)
@@ -37,8 +43,8 @@ static double *find_points(const struct sim *s, const struct contact_view *v,
         const vec3 x = domain_wrap(&s->domain, g->pos[i]);
         const int a = (int)floor(x.x / size[0] * columns[0]);
         const int b = (int)floor(x.y / size[1] * columns[1]);
-        if (!rests[i] || g->inv_mass[i] == 0.0 || a < 0 || b < 0 || a >= columns[0] ||
-            b >= columns[1])
+        if (!rests[i] || !inside(f, x) || g->inv_mass[i] == 0.0 || a < 0 || b < 0 ||
+            a >= columns[0] || b >= columns[1])
             continue;
         int *const top = &highest[(size_t)b * (size_t)columns[0] + (size_t)a];
         const double z = g->pos[i].z + g->radius[i];

@@ -25,12 +25,13 @@ struct surface {
     double base;      /* m, of a heap */
     double low, high; /* parts of the height that are fitted */
     double middle;    /* part of the extent of a slope that is fitted */
-    bool flying;      /* grains that touch nothing count */
-    double angle;     /* degree, at the last sample */
-    double height;    /* m, highest point over the base */
-    double width;     /* m, of what was fitted */
-    double scatter;   /* m, rms of the points about the line */
-    int points;       /* that were fitted */
+    vec3 from, to;  /* m; grains outside of this box are not looked at (a funnel over a heap) */
+    bool flying;    /* grains that touch nothing count */
+    double angle;   /* degree, at the last sample */
+    double height;  /* m, highest point over the base */
+    double width;   /* m, of what was fitted */
+    double scatter; /* m, rms of the points about the line */
+    int points;     /* that were fitted */
 };
 
 /* Measures the surface at the state at hand; the angle is NaN where there is none. Returns the

@@ -80,10 +80,12 @@ $rolling
 kind = ridge
 axis = x
 cell = 20 mm
+to   = 2000 8.9 330 mm       ; below the funnel
 [output]
 series = 50 ms
 [run]
 end         = $end s
+safety      = 0.4
 overlap_max = 0.5
 TEXT
 }
