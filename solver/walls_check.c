@@ -94,6 +94,17 @@ static void element_bounds(const struct wall *w, int element, vec3 *low, vec3 *h
     }
 }
 
+/* The widest that a box of these edges gets across an axis about which it turns. */
+static double across(vec3 edge, vec3 axis)
+{
+    double most = 0.0;
+    for (int k = 0; k < 4; k++) {
+        const vec3 d = v3(edge.x, k & 1 ? -edge.y : edge.y, k & 2 ? -edge.z : edge.z);
+        most = fmax(most, v3_norm(v3_cross(d, axis)));
+    }
+    return most;
+}
+
 /* Whether the element looks the same from its middle and from places shifted along an axis. */
 static bool runs_along(const struct wall *w, int element, vec3 middle, int axis, double width)
 {
@@ -121,7 +132,7 @@ static void check_period(const struct sim *s, struct scene *scene, const struct 
     const double size = s->domain.size[axis];
     const bool tumbles = w->motion.turns && fabs(along(w->motion.axis, axis)) < 1.0 - 1e-9 &&
                          w->motion.sweep > 0.0;
-    const double width = tumbles ? v3_norm(extent) : along(extent, axis);
+    const double width = tumbles ? across(extent, w->motion.axis) : along(extent, axis);
     if (!(width > size - widest) || !isfinite(v3_norm(extent)) ||
         (!tumbles && runs_along(w, element, middle, axis, width)))
         return;
