@@ -5,7 +5,7 @@
 #   the shipped scenes against their references
 #   a bed of uniform porosity: the drag law's pressure drop, two laws, two solvers
 #   lid-driven cavities; the noise of the pressure when a grain crosses faces of cells
-#   Beverloo's 5/2 power (beverloo.sh)
+#   Beverloo's 5/2 power (beverloo.sh); a sandpile with three models of rolling (sandpile.sh)
 #   every law of drag: its terminal velocity, its error against measured ones, its picture
 #   grains of other shapes: long runs, packings, hoppers (dilated.sh, ellipsoids.sh, letters.sh, shape_hoppers.sh)
 #   the tests of all modules, in release builds, with every value that they compare
@@ -102,6 +102,7 @@ value() {
     section porosity_rate "Noise of the pressure, Pa, while one grain crosses faces of cells" \
         verify/porosity_rate.sh
     section beverloo "Beverloo's law: six circular orifices, C and k of the fit" verify/beverloo.sh
+    section sandpile "A pile of discs with three models of rolling resistance, against Ai et al. 2011" verify/sandpile.sh
     section drag_settling "Every law of drag with an isolated sphere comes to its own terminal velocity, one-way" \
         verify/drag_settling.sh
     section drag_figures "Terminal velocity by every law against Brown and Lawler; pictures docs/drag_*.png" \
