@@ -1,6 +1,6 @@
 /* verify/test_navier_stokes_order.c - orders of accuracy of the fluid: in time, with explicit
- * and implicit viscosity and steps that change; in space, Womersley's channel, the lid-driven
- * cavity, and a manufactured flow among porosities that vary (forms a, b, c). */
+ * and implicit viscosity and steps that change; in space, Womersley's channel, Brinkman's, the
+ * lid-driven cavity, and a manufactured flow among porosities that vary (forms a, b, c). */
 /* slots: drag/ergun porosity/divided solver/fluid/navier_stokes contact/linear */
 #include <complex.h>
 #include <omp.h>
@@ -118,6 +118,53 @@ static double womersley(int n, int steps, const char *viscous)
     sim_free(s);
     xfree(text);
     return worst / fastest;
+}
+
+/* A channel full of an even bed [Brinkman49]: eps mu u'' - B u + eps G = 0 between walls at rest, so that
+ * u = eps G/B (1 - cosh(s (y/H - 1/2))/cosh(s/2)), s^2 = B H^2/(eps mu). Largest error of the steady
+ * velocity over eps G/B. */
+static double brinkman(int n, double s_H, const char *form, const char *viscous)
+{
+    const double H = 1.2, mu = 0.3, eps = 0.45, G = 0.8, B = s_H * s_H * eps * mu / (H * H);
+    const bool implicit = viscous[0] == 'i';
+    const double dt = implicit ? 0.2 : 0.2 * H * H / (n * n * mu);
+    char *const text =
+        xprintf("[domain]\nsize = 1 %g 1 m\ncells = 1 %d 1\nx = periodic\nz = periodic\n"
+                "[grains g]\ndiameter = 1 mm\ndensity = 2 kg/m3\nfill = point\n"
+                "position = 0.5 0.5 0.5 m\nfrozen = yes\nmaterial = m\n[material m]\n"
+                "stiffness = 100 N/m\nrestitution = 0.6\nfriction = 0.4\n"
+                "[flow]\npressure_gradient = %g 0 0 Pa/m\n[fluid]\ndensity = 1 kg/m3\n"
+                "viscosity = %g Pa s\ndt = %.17g s\nform = %s\nviscous = %s\n"
+                "[run]\nend = 1e9 s\nforce = on\n",
+                H, n, G, mu, dt, form, viscous);
+    struct sim *const s = sim_from(text);
+    double worst = 0.0;
+    for (size_t c = 0; c < s->grid.total; c++) {
+        s->fluid.eps[c] = s->fluid.eps_old[c] = eps;
+        for (int a = 0; a < 3; a++)
+            s->fluid.drag[a][c] = B;
+    }
+    for (int m = 0; m < (implicit ? 400 : 10 * n * n); m++)
+        fluid_step(s);
+    for (int j = 1; j <= n; j++) {
+        const double y = (j - 0.5) / n - 0.5, u = s->fluid.u[0][cell(&s->grid, 1, j, 1)];
+        worst = fmax(worst, fabs(u * B / (eps * G) - 1.0 + cosh(s_H * y) / cosh(0.5 * s_H)));
+    }
+    sim_free(s);
+    xfree(text);
+    return worst;
+}
+
+static void check_brinkman(const char *form, const char *viscous, double s_H)
+{
+    char *const what = xprintf("Brinkman's channel, H/sqrt(K) = %g, form %s, %s viscosity", s_H,
+                               form, viscous);
+    const int n =
+        (int)(5.0 *
+              s_H); /* so many cells in the layers at the walls, 1/s thick, that h^2 leads */
+    const double fine = brinkman(2 * n, s_H, form, viscous);
+    check_order(what, brinkman(n, s_H, form, viscous), fine, 1.8);
+    xfree(what);
 }
 
 /* u on the vertical centre line of the cavity at Re = 100, at y = 1/2 and y = 0.171875, against
@@ -314,6 +361,9 @@ int main(void)
     check_manufactured("b", "centred", "explicit");
     check_manufactured("c", "centred", "explicit");
     check_manufactured("a", "centred", "implicit");
+    check_brinkman("a", "implicit", 5.2);
+    check_brinkman("b", "implicit", 11.0);
+    check_brinkman("a", "explicit", 2.4);
     check_manufactured("b", "centred", "implicit");
     return check_end();
 }
