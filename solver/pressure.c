@@ -156,14 +156,14 @@ struct solve pressure_solve(struct pressure *p, double *const c[3], double shift
     return result;
 }
 
-void pressure_feasibility(const struct grid *g, struct feasibility *f)
+void pressure_feasibility(const struct grid *g, int directions, struct feasibility *f)
 {
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < directions; a++)
         if (transform_largest_prime(g->n[a]) > TRANSFORM_QUICK) {
             char name[64], note[96];
             snprintf(name, sizeof name, "cells in %c, largest prime factor", 'x' + a);
-            snprintf(note, sizeof note,
-                     "the pressure solve is quicker with %d cells than with %d",
+            snprintf(note, sizeof note, "%s is quicker with %d cells than with %d",
+                     a < 2 ? "the pressure solve" : "implicit viscosity",
                      transform_good_size(g->n[a]), g->n[a]);
             feasibility_add(f, name, "1", transform_largest_prime(g->n[a]), TRANSFORM_QUICK,
                             false, note);

@@ -53,8 +53,9 @@ void pressure_ghosts(const struct pressure *p, double *phi);
  * equation (0 otherwise). */
 double pressure_imbalance(const struct pressure *p, double shift, const double *rhs);
 
-/* Advice where a size of the grid makes the transforms slow: a line of the report. */
+/* Advice where a size of the grid makes the transforms slow: a line of the report. directions: 2 of the
+ * pressure, 3 where implicit viscosity has transforms along z too. */
 struct feasibility;
-void pressure_feasibility(const struct grid *g, struct feasibility *f);
+void pressure_feasibility(const struct grid *g, int directions, struct feasibility *f);
 
 #endif

@@ -417,5 +417,5 @@ double fluid_side_pressure(const struct sim *s, int side)
 
 void fluid_feasibility(const struct sim *s, struct feasibility *f)
 {
-    pressure_feasibility(&s->grid, f); /* backward Euler: no limit of the step */
+    pressure_feasibility(&s->grid, 2, f); /* backward Euler: no limit of the step */
 }

@@ -387,7 +387,8 @@ double fluid_side_pressure(const struct sim *s, int side)
 
 void fluid_feasibility(const struct sim *s, struct feasibility *f)
 {
-    pressure_feasibility(&s->grid, f);
+    const bool direct = s->fluid.bare && s->fluid.implicit_viscosity; /* helmholtz.h */
+    pressure_feasibility(&s->grid, direct ? 3 : 2, f);
     if (isfinite(fluid_courant_limit(s)))
         feasibility_add(f, "Courant", "s", s->fluid.dt, fluid_courant_limit(s), true,
                         s->grains.n > 0 ? "h/(2 u) at the largest velocity given, porosity 0.4"
