@@ -66,16 +66,22 @@ double pressure_rhs_norm(const struct pressure *p, const double *rhs, double *me
 
 double pressure_imbalance(const struct pressure *p, double shift, const double *rhs)
 {
-    const struct grid *const g = p->g;
+    const struct box *const b = &p->box;
+    const long rows = rows_of(b);
     if (!poisson_singular(p->direct, shift))
         return 0.0;
-    double sum = 0.0, size = 0.0;
-    for (int k = 1; k <= g->n[2]; k++)
-        for (int j = 1; j <= g->n[1]; j++)
-            for (int c = cell(g, 1, j, k); c <= cell(g, g->n[0], j, k); c++) {
-                sum += rhs[c];
-                size += fabs(rhs[c]);
-            }
+#pragma omp parallel for schedule(static) if (worth_threads(p))
+    for (long row = 0; row < rows; row++) {
+        const double *const x = rhs + in_grid(b, row);
+        double sum = 0.0, size = 0.0;
+        for (int i = 0; i < b->n[0]; i++) {
+            sum += x[(size_t)i * b->grid_s[0]];
+            size += fabs(x[(size_t)i * b->grid_s[0]]);
+        }
+        p->part[row] = sum;
+        p->part[rows + row] = size;
+    }
+    const double sum = sum_of(p->part, rows), size = sum_of(p->part + rows, rows);
     return size > 0.0 ? fabs(sum) / size : 0.0;
 }
 
