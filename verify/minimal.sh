@@ -3,22 +3,30 @@
 # what that saves. The same scene with every slot filled, by answers that do nothing there (no rolling
 # friction, bonds without stiffness, no adhesion, a fluid without viscosity that is at rest), comes
 # to the same end; both are timed, in turns. Fails where a binary holds more than its scene asks for.
-#   minimal.sh [quick]   quick: one run each of the smallest scenes, for the check
+#   minimal.sh [quick]   quick: one run each of the smallest scenes, for the check; REPEATS: of each, else 5
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 bad=0
-repeats=5
-scenes=(bounce settling channel darcy_column hopper packed_bed)
+repeats=${REPEATS:-5}
+mapfile -t scenes < <(cd scenes && ls *.ini | sed 's/\.ini$//')
 [ "${1:-}" = quick ] && repeats=1 && scenes=(bounce settling darcy_column)
 
-# What shortens a scene.
+# What shortens a scene: for what its binary costs a second or so of it will do.
 short_of() {
     case $1 in
-        hopper) echo "run.end=30 ms;reference.after=10 ms;reference.until=30 ms" ;;
-        packed_bed) echo "grains beads.count=2000;domain.size=12.25 12.25 55 mm;domain.cells=3 3 30;flow.steps=2;flow.hold=30 ms;run.end=60 ms" ;;
+        angle_of_repose | drum | funnel) echo "run.end=50 ms" ;;
         channel) echo "run.end=0.2 s" ;;
+        cone_pair_hopper) echo "run.end=10 ms" ;;
+        ellipsoids) echo "run.end=20 ms" ;;
+        fluidised_bed) echo "run.end=4 ms" ;;
+        hopper) echo "run.end=30 ms;reference.after=10 ms;reference.until=30 ms" ;;
+        letters) echo "run.end=0.1 s" ;;
+        packed_bed) echo "grains beads.count=2000;domain.size=12.25 12.25 55 mm;domain.cells=3 3 30;flow.steps=2;flow.hold=30 ms;run.end=60 ms" ;;
+        prism_hopper) echo "run.end=20 ms" ;;
+        shape_discharge) echo "run.end=50 ms" ;;
+        triaxial) echo "run.end=20 ms" ;;
     esac
 }
 
@@ -83,7 +91,7 @@ median() {
 # Answers of slots in a binary that its scene did not ask for: the one per slot that exports
 # SLOT_about is what was linked; what the scene asks for is what front says.
 foreign() { # BINARY SCENE...
-    local binary=$1 held asked
+    local binary=$1 held asked shape file
     shift
     held=$(gdb -batch -ex 'info sources' "$binary" 2> /dev/null | tr ',' '\n' |
         grep -o -E '/(shapes|contact|drag|porosity|reference|forces|solver/fluid)/[a-z_/0-9]*\.c' || :)
@@ -91,7 +99,10 @@ foreign() { # BINARY SCENE...
         sed -n 's/.*DW_AT_name .*: \([a-z_/0-9]*\.c\)$/\/\1/p' |
         grep -E '^/(shapes|contact|drag|porosity|reference|forces|solver/fluid)/')
     asked=$(build/release/front slots "$@" | tr ' ' '\n' | sed 's/^[A-Z]*=//' | tr '+' '\n')
+    shape=$(sed 's/.*SHAPE=\([a-z_]*\).*/\1/' <<< "$(build/release/front slots "$@")")
     while read -r file; do
+        # the geometry of polyhedra goes with the shapes that name it
+        [[ $file == /shapes/geometry/* ]] && grep -q '"geometry/' "shapes/$shape.c" && continue
         grep -q -x "$(basename "$file" .c)" <<< "$asked" || echo "$file"
     done < <(sort -u <<< "$held")
 }
