@@ -24,6 +24,7 @@ static const struct asked {
     {"clump", "clump = tetrapod\n", 1e-3, false},
     {"superquadric", "half_axes = 1 0.8 1.3\nblockiness = 4\nblockiness_across = 2\n", 1e-3,
      true},
+    {"dilated_polyhedron", "form = cube\ndilation = 0.1 m\n", 1e-4, true},
     {"level_set", "node_spacing = 0.04\n", 3e-2, true}, /* and its form */
 };
 

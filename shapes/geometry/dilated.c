@@ -17,8 +17,10 @@ void dilated_free(struct dilated *d)
 {
     if (!d)
         return;
-    for (int k = 0; k < d->n_parts; k++)
+    for (int k = 0; k < d->n_parts; k++) {
         polyhedron_free(d->part[k].core);
+        xfree(d->part[k].log_weight);
+    }
     xfree(d->ball);
     xfree(d->shadow);
     xfree(d);
@@ -218,5 +220,10 @@ struct dilated *dilated_create(const struct solid *s, double r, double spacing, 
                                   {axes[0].z, axes[1].z, axes[2].z}}};
     d->axes = quat_of_matrix(&columns);
     add_balls(d);
+    for (int k = 0; k < d->n_parts; k++) {
+        struct dilated_part *const p = &d->part[k];
+        p->log_weight = xalloc((size_t)p->core->vertex_room, sizeof *p->log_weight);
+        crown_weights(p->core, p->log_weight);
+    }
     return d;
 }

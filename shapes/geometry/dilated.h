@@ -8,6 +8,7 @@
 #define DILATED_H
 
 #include "../shape.h"
+#include "crown.h"
 #include "forms.h"
 #include "patch.h"
 
@@ -15,8 +16,9 @@ enum { PARTS_MOST = 64 };
 
 struct dilated_part {
     struct polyhedron *core;
-    vec3 middle, half; /* of its box, dilated; sides along the body's axes */
-    double radius;     /* of the ball about `middle` that holds it, dilated */
+    double *log_weight; /* of its vertices, see crown.h */
+    vec3 middle, half;  /* of its box, dilated; sides along the body's axes */
+    double radius;      /* of the ball about `middle` that holds it, dilated */
 };
 
 struct dilated {

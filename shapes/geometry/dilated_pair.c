@@ -168,6 +168,7 @@ static struct shape_point make_point(const struct shape_pair *p, const struct pa
 struct parts {
     const struct dilated *i, *j;
     const struct polyhedron *a, *b;
+    const double *weights_a, *weights_b;
     int pair, first_id;
     double *
         apart; /* sizes of i; lowered to a bound of how far apart they are where they do not touch */
@@ -190,6 +191,50 @@ static int gather(const struct shape_pair *p, const struct parts *w,
     return count;
 }
 
+/* Along which the patch of contact counts as a point. */
+#define NARROW 1e-2
+
+/* The points that stand for a patch: its middle, or, where it is wide, two on either side whose
+ * variance is the patch's. The force of all goes through the middle; what each has of its own is
+ * friction and the dashpot. */
+static int spread(const struct crown_gap *g, double size, struct patch_point *q)
+{
+    const double width = g->r11 + g->r22;
+    const vec3 first = v3_add(v3_scale(g->r11, g->e1), v3_scale(g->r12, g->e2)),
+               second = v3_add(v3_scale(g->r12, g->e1), v3_scale(g->r22, g->e2));
+    if (width < NARROW * size) {
+        q[0] = (struct patch_point){0, 1.0, g->gap, g->on_b};
+        return 1;
+    }
+    for (int k = 0; k < 4; k++)
+        q[k] = (struct patch_point){
+            1 + k, 0.25, g->gap,
+            v3_axpy(g->on_b, k % 2 ? -sqrt(2.0) : sqrt(2.0), k < 2 ? first : second)};
+    return 4;
+}
+
+/* Those of the crowned cores. */
+static int crown_points(const struct shape_pair *p, const struct parts *w, const struct view *v,
+                        const struct scratch *s, struct kept *keep, int kept, int most,
+                        int have, struct shape_point *out)
+{
+    const double dilation = w->i->r + v->scale * w->j->r, reach = v->reach + dilation;
+    const struct crown a = {own_points(w->a), w->weights_a, CROWN_SHARP},
+                       b = {{w->b->vertex_room, s->x, s->y, s->z},
+                            w->weights_b,
+                            CROWN_SHARP / v->scale};
+    struct crown_gap g;
+    struct patch_point q[4];
+    const bool near = crown_find_gap(&a, &b, v3(0.0, 0.0, 0.0), reach, keep->direction, &g);
+    keep->direction = g.normal;
+    remember(p->memory, kept, w->pair, keep);
+    *w->apart = fmin(*w->apart, g.gap - dilation);
+    if (!near)
+        return have;
+    const int n = spread(&g, fmin(1.0, v->scale), q);
+    return gather(p, w, q, n, g.normal, v, most, have, out);
+}
+
 /* Adds the points of two parts to those that there are. */
 static int part_points(const struct shape_pair *p, const struct parts *w, const struct view *v,
                        const struct detection *how, int kept, int most, int have,
@@ -201,31 +246,39 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     struct scratch s;
     struct gap gap;
     struct patch_point q[PATCH_MOST];
-    const double before = *w->apart;
-    if (recall(p->memory, kept, w->pair, &keep)) {
-        const double far = along(w->a, w->b, v, keep.direction);
+    const double before = *w->apart,
+                 slack = how->detector == DETECTOR_GJK ? CROWN_SLACK * (1.0 + v->scale) : 0.0;
+    const bool known = recall(p->memory, kept, w->pair, &keep);
+    if (known) {
+        const double far = along(w->a, w->b, v, keep.direction) - slack;
         *w->apart = fmin(*w->apart, far - dilation);
         if (far > reach)
             return have;
+        if (how->detector == DETECTOR_GJK && far > 0.0) {
+            turn_vertices(w->b, v, &s);
+            *w->apart = before;
+            return crown_points(p, w, v, &s, &keep, kept, most, have, out);
+        }
     }
     turn_vertices(w->b, v, &s);
     const struct points pa = own_points(w->a), pb = {w->b->vertex_room, s.x, s.y, s.z};
     gap_find(&pa, w->a, &pb, w->b, v->axes, reach + MORE, &keep.simplex, &gap);
+    gap.distance -= slack;
     keep.direction = gap.normal;
     remember(p->memory, kept, w->pair, &keep);
     *w->apart = fmin(before, gap.distance - dilation);
     if (gap.distance >= reach)
         return have;
+    if (how->detector == DETECTOR_GJK)
+        return crown_points(p, w, v, &s, &keep, kept, most, have, out);
     const struct patch_body a = body_of(w->a, pa, own, v3(0.0, 0.0, 0.0), 1.0),
                             b = body_of(w->b, pb, v->axes, v->place, v->scale);
-    if (how->detector == DETECTOR_ENVELOPE && gap.distance > 0.0) {
+    if (gap.distance > 0.0) {
         envelope_gap(&a, w->i->r, &b, v->scale * w->j->r, how->smoothness, &gap);
         q[0] = (struct patch_point){patch_ids(w->a, w->b) - 1, 1.0, gap.distance, gap.on_b};
         return gather(p, w, q, 1, gap.normal, v, most, have, out);
     }
-    /* of one pair of parts those of the least shares are left out, of several none */
-    const int room = have == 0 && most < PATCH_MOST ? most : PATCH_MOST;
-    const int n = patch_find(&a, &b, &gap, how->tilt, room, q);
+    const int n = patch_find(&a, &b, &gap, how->tilt, PATCH_MOST, q);
     return gather(p, w, q, n, gap.normal, v, most, have, out);
 }
 
@@ -239,8 +292,15 @@ int dilated_points(const struct dilated *i, const struct dilated *j,
     look(&p->i, &p->j, p->reach, &v);
     for (int a = 0; a < i->n_parts; a++)
         for (int b = 0; b < j->n_parts; b++) {
-            const struct parts w = {
-                i, j, i->part[a].core, j->part[b].core, a * j->n_parts + b, first, &apart};
+            const struct parts w = {i,
+                                    j,
+                                    i->part[a].core,
+                                    j->part[b].core,
+                                    i->part[a].log_weight,
+                                    j->part[b].log_weight,
+                                    a * j->n_parts + b,
+                                    first,
+                                    &apart};
             first += patch_ids(w.a, w.b);
             if (i->n_parts + j->n_parts > 2) {
                 const double far = far_apart(&i->part[a], &j->part[b], &v);

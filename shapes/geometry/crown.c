@@ -1,0 +1,243 @@
+/* shapes/geometry/crown.c - see crown.h. */
+#include "crown.h"
+
+#include <string.h>
+
+enum { ROUNDS = 100, LANES = POLYHEDRON_LANES };
+#define STEP  0.5   /* the normal turns by no more at once */
+#define FLAT  1e-13 /* of the size: a gain in height that round-off hides */
+#define TIGHT 1e-14 /* of the size: the points are on one line */
+
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+typedef long long counts __attribute__((vector_size(LANES * sizeof(long long))));
+
+static inline lanes load(const double *x)
+{
+    lanes out;
+    memcpy(&out, x, sizeof out);
+    return out;
+}
+
+/* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, Taylor's series of f. */
+static inline lanes exponential(lanes x)
+{
+    const lanes low = {-700, -700, -700, -700, -700, -700, -700, -700};
+    const counts deep = x < low;
+    const lanes y = (lanes)(((counts)low & deep) | ((counts)x & ~deep));
+    const double whole = 6755399441055744.0; /* 1.5 2^52: the sum's last bits are the integer */
+    const lanes sum = y * 1.4426950408889634 + whole, k = sum - whole;
+    const lanes f = y - k * 0.693147180369123816490 - k * 1.90821492927058770002e-10;
+    lanes p = f * (1.0 / 479001600.0) + 1.0 / 39916800.0;
+    p = p * f + 1.0 / 3628800.0;
+    p = p * f + 1.0 / 362880.0;
+    p = p * f + 1.0 / 40320.0;
+    p = p * f + 1.0 / 5040.0;
+    p = p * f + 1.0 / 720.0;
+    p = p * f + 1.0 / 120.0;
+    p = p * f + 1.0 / 24.0;
+    p = p * f + 1.0 / 6.0;
+    p = p * f + 0.5;
+    p = p * f + 1.0;
+    p = p * f + 1.0;
+    const counts power = (((counts)sum - 0x4338000000000000LL) + 1023) << 52;
+    return p * (lanes)power;
+}
+
+static inline double total(lanes x)
+{
+    const lanes a = x + __builtin_shuffle(x, (counts){4, 5, 6, 7, 0, 1, 2, 3});
+    const lanes b = a + __builtin_shuffle(a, (counts){2, 3, 0, 1, 6, 7, 4, 5});
+    return b[0] + b[1];
+}
+
+static inline double greatest(lanes x)
+{
+    double most = x[0];
+    for (int k = 1; k < LANES; k++)
+        most = x[k] > most ? x[k] : most;
+    return most;
+}
+
+void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top)
+{
+    const struct points *const p = &c->at;
+    const vec3 b = v3_scale(c->sharp, along);
+    lanes most = load(c->log_weight) + b.x * load(p->x) + b.y * load(p->y) + b.z * load(p->z);
+    for (int k = LANES; k < p->room; k += LANES) {
+        const lanes h = load(c->log_weight + k) + b.x * load(p->x + k) + b.y * load(p->y + k) +
+                        b.z * load(p->z + k);
+        const counts higher = h > most;
+        most = (lanes)(((counts)h & higher) | ((counts)most & ~higher));
+    }
+    const double high = greatest(most);
+    lanes s = {0.0}, sx = s, sy = s, sz = s, xx = s, yy = s, zz = s, xy = s, xz = s, yz = s;
+    for (int k = 0; k < p->room; k += LANES) {
+        const lanes x = load(p->x + k), y = load(p->y + k), z = load(p->z + k);
+        const lanes e =
+            exponential(load(c->log_weight + k) + b.x * x + b.y * y + b.z * z - high);
+        const lanes ex = e * x, ey = e * y, ez = e * z;
+        s += e;
+        sx += ex;
+        sy += ey;
+        sz += ez;
+        xx += ex * x;
+        yy += ey * y;
+        zz += ez * z;
+        xy += ex * y;
+        xz += ex * z;
+        yz += ey * z;
+    }
+    const double sum = total(s), per = 1.0 / sum;
+    const vec3 at = v3(total(sx) * per, total(sy) * per, total(sz) * per);
+    top->at = at;
+    top->height = (high + log(sum)) / c->sharp;
+    top->xx = total(xx) * per - at.x * at.x;
+    top->yy = total(yy) * per - at.y * at.y;
+    top->zz = total(zz) * per - at.z * at.z;
+    top->xy = total(xy) * per - at.x * at.y;
+    top->xz = total(xz) * per - at.x * at.z;
+    top->yz = total(yz) * per - at.y * at.z;
+}
+
+void crown_weights(const struct polyhedron *p, double *log_weight)
+{
+    for (int v = 0; v < p->vertex_room; v++) {
+        int most = 1;
+        for (int k = v < p->n_vertices ? p->fan_begin[v] : 0;
+             v < p->n_vertices && k < p->fan_begin[v + 1]; k++) {
+            const int f = p->fan[k], corners = p->loop_begin[f + 1] - p->loop_begin[f];
+            most = corners > most ? corners : most;
+        }
+        log_weight[v] = v < p->n_vertices ? -log(most) : CROWN_NONE;
+    }
+    if (p->radius > 0.0)
+        return;
+    for (int v = 0; v < p->vertex_room; v++) /* a ball: one vertex counts */
+        log_weight[v] = v == 0 ? 0.0 : CROWN_NONE;
+}
+
+/* A symmetric matrix across the normal. */
+struct flat {
+    double a, b, c; /* 11, 12, 22 */
+};
+
+static vec3 times(const struct crown_top *t, vec3 e)
+{
+    return v3(t->xx * e.x + t->xy * e.y + t->xz * e.z, t->xy * e.x + t->yy * e.y + t->yz * e.z,
+              t->xz * e.x + t->yz * e.y + t->zz * e.z);
+}
+
+static struct flat across(const struct crown_top *t, vec3 e1, vec3 e2)
+{
+    const vec3 first = times(t, e1), second = times(t, e2);
+    return (struct flat){v3_dot(e1, first), v3_dot(e1, second), v3_dot(e2, second)};
+}
+
+static void basis(vec3 n, vec3 *e1, vec3 *e2)
+{
+    const vec3 other = fabs(n.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
+    const vec3 e = v3_cross(n, other);
+    *e1 = v3_scale(1.0 / v3_norm(e), e);
+    *e2 = v3_cross(n, *e1);
+}
+
+/* The root of A (A + B)^-1 B. */
+static void set_patch(const struct flat *a, const struct flat *b, double size,
+                      struct crown_gap *out)
+{
+    const double tiny = 1e-12 * size * size;
+    const struct flat s = {a->a + b->a + tiny, a->b + b->b, a->c + b->c + tiny};
+    const double det = s.a * s.c - s.b * s.b;
+    const struct flat inv = {s.c / det, -s.b / det, s.a / det};
+    /* inv B */
+    const double m11 = inv.a * b->a + inv.b * b->b, m12 = inv.a * b->b + inv.b * b->c,
+                 m21 = inv.b * b->a + inv.c * b->b, m22 = inv.b * b->b + inv.c * b->c;
+    const double p11 = a->a * m11 + a->b * m21, p22 = a->b * m12 + a->c * m22,
+                 p12 = 0.5 * (a->a * m12 + a->b * m22 + a->b * m11 + a->c * m21);
+    const double root = sqrt(fmax(p11 * p22 - p12 * p12, 0.0));
+    const double trace = fmax(p11, 0.0) + fmax(p22, 0.0) + 2.0 * root;
+    const double per = trace > 0.0 ? 1.0 / sqrt(trace) : 0.0;
+    out->r11 = (fmax(p11, 0.0) + root) * per;
+    out->r22 = (fmax(p22, 0.0) + root) * per;
+    out->r12 = p12 * per;
+}
+
+/* How the normal is to turn: (B_a A + B_b B + gap)^-1 g, within the plane across `line`. */
+static vec3 turn_by(const struct flat *t, double h, vec3 g, vec3 line, vec3 e1, vec3 e2)
+{
+    const double l1 = v3_dot(e1, line), l2 = v3_dot(e2, line), l = sqrt(l1 * l1 + l2 * l2);
+    const double g1 = v3_dot(e1, g), g2 = v3_dot(e2, g), least = fmax(fabs(h), 1e-9);
+    vec3 q;
+    if (l > 0.5) { /* along the one direction that is left */
+        const double u1 = -l2 / l, u2 = l1 / l;
+        const double k = t->a * u1 * u1 + 2.0 * t->b * u1 * u2 + t->c * u2 * u2 + least;
+        const double s = (g1 * u1 + g2 * u2) / k;
+        q = v3_add(v3_scale(s * u1, e1), v3_scale(s * u2, e2));
+    } else {
+        const double a = t->a + least, c = t->c + least, det = a * c - t->b * t->b;
+        q = v3_add(v3_scale((c * g1 - t->b * g2) / det, e1),
+                   v3_scale((a * g2 - t->b * g1) / det, e2));
+    }
+    const double size = v3_norm(q);
+    return size > STEP ? v3_scale(STEP / size, q) : q;
+}
+
+static vec3 turned(vec3 m, double part, vec3 q)
+{
+    const vec3 to = v3_axpy(m, part, q);
+    return v3_scale(1.0 / v3_norm(to), to);
+}
+
+bool crown_find_gap(const struct crown *a, const struct crown *b, vec3 line, double reach,
+                    vec3 start, struct crown_gap *out)
+{
+    const double ba = a->sharp, bb = b->sharp, size = CROWN_SHARP / fmax(ba, bb);
+    struct crown_top ta, tb;
+    struct flat va, vb;
+    vec3 m = start, base = start, q = v3(0.0, 0.0, 0.0);
+    double last = (double)INFINITY, part = 1.0, before = 0.0, gain = 0.0;
+    for (int round = 0; round < ROUNDS; round++) {
+        crown_find_top(a, v3_scale(-1.0, m), &ta);
+        crown_find_top(b, m, &tb);
+        const vec3 w = v3_sub(ta.at, tb.at);
+        const double h = v3_dot(w, m);
+        vec3 g = v3_axpy(w, -h, m);
+        g = v3_axpy(g, -v3_dot(g, line), line);
+        const double error = v3_norm(g);
+        out->gap = -ta.height - tb.height;
+        if (out->gap >= reach) {
+            out->normal = m;
+            return false;
+        }
+        if (error <= TIGHT * size)
+            break;
+        /* climbs, by a part of what the slope promises, as long as that is above round-off */
+        if (gain > FLAT * size && out->gap < before + 0.01 * part * gain && part > 1e-6) {
+            part *= 0.5;
+            m = turned(base, part, q);
+            continue;
+        }
+        if (gain <= FLAT * size && error >= last)
+            break;
+        basis(m, &out->e1, &out->e2);
+        va = across(&ta, out->e1, out->e2);
+        vb = across(&tb, out->e1, out->e2);
+        const struct flat t = {ba * va.a + bb * vb.a, ba * va.b + bb * vb.b,
+                               ba * va.c + bb * vb.c};
+        base = m;
+        last = error;
+        before = out->gap;
+        part = 1.0;
+        q = turn_by(&t, h, g, line, out->e1, out->e2);
+        gain = v3_dot(q, g);
+        m = turned(base, 1.0, q);
+    }
+    basis(m, &out->e1, &out->e2);
+    va = across(&ta, out->e1, out->e2);
+    vb = across(&tb, out->e1, out->e2);
+    set_patch(&va, &vb, size, out);
+    out->normal = m;
+    out->on_a = ta.at;
+    out->on_b = tb.at;
+    return true;
+}
