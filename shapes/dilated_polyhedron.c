@@ -42,10 +42,15 @@ static const struct shape_ball *balls(int species, int *n)
     return all.body[species]->ball;
 }
 
-static int facet(const struct shape_pose *i, const struct shape_facet *f, double reach,
-                 int most, struct shape_point *out)
+static int parts_of(int species)
 {
-    return dilated_facet(all.body[i->species], i, f, reach, most, out);
+    return all.body[species]->n_parts;
+}
+
+static int meet_flat(const struct shape_pose *i, int part, const struct shape_facet *f,
+                     double reach, vec3 *core, struct shape_point out[4])
+{
+    return dilated_flat(all.body[i->species], i, part, f, reach, core, out);
 }
 
 static void surface(int species, struct shape_canvas *c)
@@ -69,7 +74,8 @@ const struct shape shape = {.path = &contact_points,
                             .points = points,
                             .memory = DILATED_MEMORY,
                             .balls = balls,
-                            .facet = facet,
+                            .convex_parts = parts_of,
+                            .meet_flat = meet_flat,
                             .surface = surface,
                             .parts = parts,
                             .crosswise = crosswise};

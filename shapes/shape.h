@@ -179,7 +179,7 @@ struct shape {
     int (*points)(const struct shape_pair *p, int most, struct shape_point *out);
     int memory; /* reals of shape_pair.memory */
 
-    /* Walls of every kind are met in one of two ways. Either by balls: their union must reach as far
+    /* Walls are met in one of two ways. Either by balls: their union must reach as far
      * as the body at every vertex, and a ball must be thicker than overlaps get, since the side of
      * the wall that its centre is on is its side. *n of them; the array stays. Radii of curvature
      * and ids of the contacts are those of the balls and their numbers. */
@@ -187,11 +187,15 @@ struct shape {
     /* Or, for a convex body without vertices (balls NULL), by its farthest point along the unit
      * vector `way` (lab): m, from x_i; *radius: m, of its curvature there. */
     vec3 (*support)(const struct shape_pose *i, vec3 way, double *radius);
-    /* Besides the balls: points at which the body touches a flat element elsewhere, as where an edge
-     * of the wall meets a face or an edge of the body. j is the wall: id, depth, normal, at_i, from_i,
-     * r_i and scale count; ids from the number of balls on. NULL: none. */
-    int (*facet)(const struct shape_pose *i, const struct shape_facet *f, double reach,
-                 int most, struct shape_point *out);
+    /* Flat elements of walls may be met by the convex parts of the body in place of the balls: where
+     * such a part lies nearest to the element. Up to 4 points (0: out of reach) that share one
+     * stiffness; j is the wall: id, depth, normal, at_i, from_i, r_i, scale and share count; ids from
+     * the number of balls on, other ones for each part. *core: m, from x_i, a point inside of the body
+     * from which the element is seen along the normal. The corners are none for a plane without end,
+     * then corner[0] is a point of it. NULL: the balls meet all. */
+    int (*convex_parts)(int species);
+    int (*meet_flat)(const struct shape_pose *i, int part, const struct shape_facet *f,
+                     double reach, vec3 *core, struct shape_point out[4]);
 
     /* The surface, for pictures. NULL: a sphere. */
     void (*surface)(int species, struct shape_canvas *c);

@@ -4,8 +4,8 @@
  * sphere would (contact_facing.h). A convex body without vertices meets an element by a ball of
  * INSET of its size that touches its surface from within at the point that lies deepest: n, the
  * direction from the element's nearest point to the ball, and the farthest point of the body along
- * -n are found by turns. What an edge of a wall does to a face or edge of the body comes from the
- * shape (facet). A contact that goes over to another element takes its memory along. */
+ * -n are found by turns. Flat elements may be met by the shape's convex parts instead (meet_flat): a face
+ * of a grain is then no stiffer than a vertex. A contact that goes over to another element takes its memory along. */
 #include <string.h>
 #include "contact_facing.h"
 #include "contact_points.h"
@@ -147,31 +147,77 @@ static void meet_convex(const struct sim *s, struct meetings *all, const struct 
         all->m[k].p.id = 0;
 }
 
-static void meet_facets(const struct sim *s, struct meetings *all, const struct around *a,
-                        const struct facing *seen, int most)
+/* A flat element as the grain sees it; false: it is not one. */
+static bool facet_of(const struct sim *s, const struct around *a, const struct facing *seen,
+                     struct shape_facet *out)
 {
-    struct shape_point p[POINTS_MOST];
+    const int element = s->neighbours.walls.other[seen->slot];
+    out->n = wall_corners(s, element, s->grains.pos[a->i], out->corner);
+    if (out->n == 0) {
+        out->corner[0] = v3_scale(-1.0, seen->away);
+        out->normal = v3_scale(1.0 / seen->distance, seen->away);
+        return seen->curvature == 0.0 && seen->part == WALL_FACE;
+    }
+    const vec3 n = v3_cross(v3_sub(out->corner[1], out->corner[0]),
+                            v3_sub(out->corner[2], out->corner[0]));
+    const double side = v3_dot(n, out->corner[0]) > 0.0 ? -1.0 : 1.0;
+    out->normal = v3_scale(side / v3_norm(n), n);
+    return true;
+}
+
+/* What a part of the body meets of flat elements; points[k] of them are p[k]. */
+struct flat_meeting {
+    int points;
+    struct shape_point p[4];
+};
+
+/* The flat elements; those that are none, or are met beside the end of a curved edge, are left in
+ * `seen`; returns how many. */
+static int meet_flat(const struct sim *s, struct meetings *all, const struct around *a,
+                     struct facing *seen, struct facing *f)
+{
+    const vec3 x = s->grains.pos[a->i];
     const double reach = s->neighbours.reach;
-    for (int k = 0; k < a->n; k++) {
-        const int element = s->neighbours.walls.other[seen[k].slot];
-        struct shape_facet facet;
-        facet.n = wall_corners(s, element, s->grains.pos[a->i], facet.corner);
-        if (facet.n == 0)
-            continue;
-        const vec3 n = v3_cross(v3_sub(facet.corner[1], facet.corner[0]),
-                                v3_sub(facet.corner[2], facet.corner[0]));
-        const double side = v3_dot(n, facet.corner[0]) > 0.0 ? -1.0 : 1.0;
-        facet.normal = v3_scale(side / v3_norm(n), n);
-        const int found = shape.facet(&a->pose, &facet, reach, most, p);
-        for (int m = 0; m < found && m < most; m++) {
-            if (!(p[m].depth > -reach))
+    const int parts = shape.convex_parts(a->pose.species);
+    struct flat_meeting *const met = xalloc((size_t)a->n + 1, sizeof *met);
+    bool *const flat = xalloc((size_t)a->n + 1, sizeof *flat);
+    int left = 0;
+    for (int k = 0; k < a->n; k++)
+        flat[k] = true;
+    for (int part = 0; part < parts; part++) {
+        int n = 0;
+        for (int k = 0; k < a->n; k++) {
+            struct shape_facet facet;
+            vec3 core;
+            flat[k] = flat[k] && facet_of(s, a, &seen[k], &facet);
+            if (!flat[k])
                 continue;
-            if (all->n == all->room)
-                grow(all);
-            all->m[all->n++] = (struct meeting){
-                .f = seen[k], .p = p[m], .place = mat3_back(&a->pose.turn, p[m].at_i)};
+            met[n].points = shape.meet_flat(&a->pose, part, &facet, reach, &core, met[n].p);
+            if (met[n].points == 0)
+                continue;
+            f[n] = facing_look(s, seen[k].slot, s->neighbours.walls.other[seen[k].slot],
+                               v3_add(x, core));
+            n++;
+        }
+        for (int k = 0; k < n; k++) {
+            if (facing_hidden(s, f, n, k, SAME * a->pose.size))
+                continue;
+            for (int m = 0; m < met[k].points; m++) {
+                if (all->n == all->room)
+                    grow(all);
+                all->m[all->n++] =
+                    (struct meeting){.f = f[k],
+                                     .p = met[k].p[m],
+                                     .place = mat3_back(&a->pose.turn, met[k].p[m].at_i)};
+            }
         }
     }
+    for (int k = 0; k < a->n; k++)
+        if (!flat[k])
+            seen[left++] = seen[k];
+    xfree(met);
+    xfree(flat);
+    return left;
 }
 
 /* Whether some meeting goes on with this record. */
@@ -240,7 +286,8 @@ static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
         if (!from)
             continue;
         memcpy(&taken[(size_t)k * size], from, size * sizeof *from);
-        memset(from, 0, size * sizeof *from);
+        if (!(all->m[k].p.share > 0.0 && all->m[k].p.share < 1.0)) /* others take it too */
+            memset(from, 0, size * sizeof *from);
     }
     for (int k = 0; k < a->n; k++) {
         real *const memory = &l->memory[(size_t)a->slot[k] * s->neighbours.rows];
@@ -347,12 +394,12 @@ static void work_grain(struct sim *s, struct block *b, const struct cut *cut, st
     close.n = near;
     if (near > 0) {
         close.pose = a->pose = points_pose(s, a->i);
+        if (shape.meet_flat)
+            close.n = meet_flat(s, all, &close, seen, seen + near);
         if (shape.balls)
             meet_balls(s, all, &close, seen, seen + near);
         else
             meet_convex(s, all, &close, seen, seen + near);
-        if (shape.facet)
-            meet_facets(s, all, &close, seen, cut->most);
     }
     if (all->n == 0 && live == 0)
         return;

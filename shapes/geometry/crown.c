@@ -141,6 +141,16 @@ static void basis(vec3 n, vec3 *e1, vec3 *e2)
     *e2 = v3_cross(n, *e1);
 }
 
+static void set_root(double p11, double p12, double p22, struct crown_gap *out)
+{
+    const double root = sqrt(fmax(p11 * p22 - p12 * p12, 0.0));
+    const double trace = fmax(p11, 0.0) + fmax(p22, 0.0) + 2.0 * root;
+    const double per = trace > 0.0 ? 1.0 / sqrt(trace) : 0.0;
+    out->r11 = (fmax(p11, 0.0) + root) * per;
+    out->r22 = (fmax(p22, 0.0) + root) * per;
+    out->r12 = p12 * per;
+}
+
 /* The root of A (A + B)^-1 B. */
 static void set_patch(const struct flat *a, const struct flat *b, double size,
                       struct crown_gap *out)
@@ -152,14 +162,15 @@ static void set_patch(const struct flat *a, const struct flat *b, double size,
     /* inv B */
     const double m11 = inv.a * b->a + inv.b * b->b, m12 = inv.a * b->b + inv.b * b->c,
                  m21 = inv.b * b->a + inv.c * b->b, m22 = inv.b * b->b + inv.c * b->c;
-    const double p11 = a->a * m11 + a->b * m21, p22 = a->b * m12 + a->c * m22,
-                 p12 = 0.5 * (a->a * m12 + a->b * m22 + a->b * m11 + a->c * m21);
-    const double root = sqrt(fmax(p11 * p22 - p12 * p12, 0.0));
-    const double trace = fmax(p11, 0.0) + fmax(p22, 0.0) + 2.0 * root;
-    const double per = trace > 0.0 ? 1.0 / sqrt(trace) : 0.0;
-    out->r11 = (fmax(p11, 0.0) + root) * per;
-    out->r22 = (fmax(p22, 0.0) + root) * per;
-    out->r12 = p12 * per;
+    set_root(a->a * m11 + a->b * m21, 0.5 * (a->a * m12 + a->b * m22 + a->b * m11 + a->c * m21),
+             a->b * m12 + a->c * m22, out);
+}
+
+void crown_set_flat(const struct crown_top *top, struct crown_gap *out)
+{
+    basis(out->normal, &out->e1, &out->e2);
+    const struct flat v = across(top, out->e1, out->e2);
+    set_root(v.a, v.b, v.c, out);
 }
 
 /* How the normal is to turn: (B_a A + B_b B + gap)^-1 g, within the plane across `line`. */

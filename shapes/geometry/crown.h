@@ -29,9 +29,11 @@ struct crown {
     double sharp;             /* 1/m, B */
 };
 
-#define CROWN_NONE  (-1e4)
-#define CROWN_SHARP 200.0 /* B times the size */
-#define CROWN_SLACK 1e-2  /* sizes; the gap is less than that of the polyhedra by less than this */
+#define CROWN_NONE   (-1e4)
+#define CROWN_SHARP  200.0 /* B times the size */
+#define CROWN_NARROW 1e-2  /* sizes; a patch less wide than this counts as a point */
+#define CROWN_SLACK                                                                            \
+    1e-2 /* sizes; the gap is less than that of the polyhedra by less than this */
 
 /* Where a body lies furthest along a unit vector. */
 struct crown_top {
@@ -41,8 +43,8 @@ struct crown_top {
 };
 
 struct crown_gap {
-    double gap;     /* m, H */
-    vec3 normal;    /* from b to a */
+    double gap;  /* m, H */
+    vec3 normal; /* from b to a */
     vec3 on_a, on_b;
     vec3 e1, e2; /* unit vectors across the normal */
     /* m, how far the patch reaches: the root of the parallel sum (A^-1 + B^-1)^-1 of the variances
@@ -53,6 +55,8 @@ struct crown_gap {
 /* Logarithms of the weights, vertex_room of them. */
 void crown_weights(const struct polyhedron *p, double *log_weight);
 void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top);
+/* The patch of a flat wall: that of the body itself; needs the normal. */
+void crown_set_flat(const struct crown_top *top, struct crown_gap *out);
 /* From a direction near that of the gap; false: the gap is not below `reach`, then out->gap is a lower
  * bound of it and out->normal tells along what. `line`: m is sought across this unit vector alone, for
  * a straight line in place of b; zero: none. */

@@ -66,7 +66,9 @@ enum { DILATED_KEPT = 6, DILATED_MEMORY = 7 };
 int dilated_points(const struct dilated *i, const struct dilated *j,
                    const struct detection *how, const struct shape_pair *p, int kept, int most,
                    struct shape_point *out);
-int dilated_facet(const struct dilated *d, const struct shape_pose *i,
-                  const struct shape_facet *f, double reach, int most, struct shape_point *out);
+/* Where a part lies nearest to a flat piece of a wall, see shapes/shape.h. */
+int dilated_flat(const struct dilated *d, const struct shape_pose *i, int part,
+                 const struct shape_facet *f, double reach, vec3 *core,
+                 struct shape_point out[4]);
 
 #endif

@@ -1,146 +1,145 @@
-/* shapes/geometry/dilated_facet.c - where a body of dilated polyhedra touches a flat piece of a wall
- * elsewhere than with its vertices: a corner of the piece on a face, an edge of it across an edge
- * or a face. (Vertices on the piece are balls, which walls of all kinds meet.) */
+/* shapes/geometry/dilated_facet.c - where a part of a body of dilated polyhedra lies nearest to a flat piece
+ * of a wall.
+ *
+ * The gap is the greatest over all normals m of -s(-m) - max_b (m b), s the support function of the
+ * crowned core (crown.h), b the corners of the piece: on its face m is that of the face, on an edge
+ * it is sought across the edge, at a corner all round. That the other corners lie behind it and the
+ * point abreast of the edge tells which (Karush, Kuhn and Tucker's conditions [Boyd04, section
+ * 5.5.3]). So a face of a grain on a wall is as stiff as a vertex, and one contact goes from face to
+ * edge to corner without a jump. */
 #include "dilated.h"
 
-#define LEVEL 1e-6 /* slope of an edge that counts as along a face */
+#define LEVEL 1e-9 /* of the size */
 
-/* Points of two segments that come nearest; false: on an end of the first. */
-static bool cross(vec3 p, vec3 d, vec3 q, vec3 e, vec3 *on_p, vec3 *on_q)
-{
-    const vec3 w = v3_sub(p, q);
-    const double a = v3_dot(d, d), b = v3_dot(d, e), c = v3_dot(e, e), f = v3_dot(d, w),
-                 g = v3_dot(e, w), det = a * c - b * b;
-    if (det <= 1e-12 * a * c)
-        return false;
-    const double s = (b * g - c * f) / det, t = (a * g - b * f) / det;
-    if (s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0)
-        return false;
-    *on_p = v3_axpy(p, s, d);
-    *on_q = v3_axpy(q, t, e);
-    return true;
-}
-
-struct facet_search {
-    const struct shape_pose *pose;
-    const struct shape_facet *f;
-    vec3 corner[4]; /* in the body's frame, sizes */
-    double reach;
-    int most, n, id;
-    double r;
-    struct shape_point *out;
+struct piece {
+    int n;
+    vec3 corner[4], normal; /* in the body's frame, sizes */
 };
 
-/* Is a point of the wall in the core, if it is behind a face or edge of it? */
-static bool behind_all(const struct polyhedron *p, vec3 x)
+static vec3 next_of(const struct piece *f, int k)
 {
-    for (int f = 0; f < p->n_faces; f++)
-        if (v3_dot(polyhedron_normal(p, f), x) > p->off[f])
+    return f->corner[(k + 1) % f->n];
+}
+
+/* How far x lies outside of edge k, in the plane of the piece. */
+static double outside(const struct piece *f, int k, vec3 x)
+{
+    const vec3 d = v3_sub(next_of(f, k), f->corner[k]);
+    const vec3 way = v3_cross(d, f->normal);
+    const double side = v3_dot(way, v3_sub(f->corner[(k + 2) % f->n], f->corner[k]));
+    return (side > 0.0 ? -1.0 : 1.0) * v3_dot(way, v3_sub(x, f->corner[k])) / v3_norm(way);
+}
+
+static bool behind_all(const struct piece *f, vec3 m, vec3 b)
+{
+    for (int k = 0; k < f->n; k++)
+        if (v3_dot(m, v3_sub(f->corner[k], b)) > LEVEL)
             return false;
     return true;
 }
 
-/* A point of the body at distance along n from one of the wall; `inside`: the wall's point is in the
- * core, and distance negative. */
-static void put(struct facet_search *s, int id, vec3 on_body, double distance, vec3 n)
+/* From an edge (line) or corner. False: it is not the nearest, or out of reach. */
+static bool try_point(const struct crown *a, const struct piece *f, int k, bool edge,
+                      vec3 towards, double reach, struct crown_gap *g)
 {
-    const double size = s->pose->size;
-    if (distance - s->r >= s->reach)
-        return;
-    const vec3 normal = mat3_turn(&s->pose->turn, n);
-    const vec3 at = v3_scale(size, mat3_turn(&s->pose->turn, on_body));
-    const double depth = size * (s->r - distance);
-    if (s->n < s->most)
-        s->out[s->n] =
-            (struct shape_point){.id = s->id + id,
-                                 .depth = depth,
-                                 .normal = normal,
-                                 .at_i = v3_axpy(at, 0.5 * depth - size * s->r, normal),
-                                 .from_i = at,
-                                 .r_i = size,
-                                 .scale = size};
-    s->n++;
-}
-
-/* A corner of the piece over a face of the core. */
-static void corner_on_face(struct facet_search *s, const struct polyhedron *p, int corner,
-                           int id)
-{
-    const vec3 x = s->corner[corner];
-    double most = -(double)INFINITY;
-    int face = 0;
-    for (int f = 0; f < p->n_faces; f++) {
-        const double h = v3_dot(polyhedron_normal(p, f), x) - p->off[f];
-        if (h > most) {
-            most = h;
-            face = f;
-        }
+    static const double none[POLYHEDRON_LANES] = {0.0,        CROWN_NONE, CROWN_NONE,
+                                                  CROWN_NONE, CROWN_NONE, CROWN_NONE,
+                                                  CROWN_NONE, CROWN_NONE};
+    double x[POLYHEDRON_LANES], y[POLYHEDRON_LANES], z[POLYHEDRON_LANES];
+    const vec3 b = f->corner[k], along = v3_sub(next_of(f, k), b);
+    const double length = v3_norm(along);
+    const vec3 line = edge ? v3_scale(1.0 / length, along) : v3(0.0, 0.0, 0.0);
+    vec3 start = v3_sub(towards, b);
+    for (int c = 0; c < POLYHEDRON_LANES; c++) {
+        x[c] = b.x;
+        y[c] = b.y;
+        z[c] = b.z;
     }
-    const vec3 n = polyhedron_normal(p, face), foot = v3_axpy(x, -most, n);
-    const int corners = s->f->n;
-    const vec3 next = v3_sub(s->corner[(corner + 1) % corners], x),
-               last = v3_sub(s->corner[(corner + corners - 1) % corners], x);
-    if (v3_dot(n, next) < -LEVEL * v3_norm(next) || v3_dot(n, last) < -LEVEL * v3_norm(last))
-        return; /* the piece comes nearer elsewhere */
-    for (int f = 0; f < p->n_faces; f++)
-        if (f != face && v3_dot(polyhedron_normal(p, f), foot) - p->off[f] > 0.0)
-            return; /* beside the face */
-    put(s, id, foot, most, v3_scale(-1.0, n));
+    const struct crown point = {{POLYHEDRON_LANES, x, y, z}, none, a->sharp};
+    start = v3_axpy(start, -v3_dot(start, line), line);
+    const double size = v3_norm(start);
+    start = size > LEVEL ? v3_scale(1.0 / size, start) : f->normal;
+    if (!crown_find_gap(a, &point, line, reach, start, g))
+        return false;
+    const double at = v3_dot(v3_sub(g->on_a, b), line);
+    return (!edge || (at >= -LEVEL && at <= length + LEVEL)) && behind_all(f, g->normal, b);
 }
 
-/* An edge of the piece across an edge of the core, outside of it or a little inside. */
-static void edge_on_edge(struct facet_search *s, const struct polyhedron *p, int e, vec3 q,
-                         vec3 d, vec3 inward, int id)
+/* The face itself. */
+static bool try_face(const struct crown *a, const struct piece *f, struct crown_gap *g)
 {
-    const vec3 a = polyhedron_vertex(p, p->edge[e][0]), b = polyhedron_vertex(p, p->edge[e][1]);
-    const vec3 n1 = polyhedron_normal(p, p->edge_face[e][0]),
-               n2 = polyhedron_normal(p, p->edge_face[e][1]);
-    vec3 on_body, on_wall;
-    if (!cross(a, v3_sub(b, a), q, d, &on_body, &on_wall))
-        return;
-    vec3 n = v3_cross(v3_sub(b, a), d); /* outward: between the normals of the faces */
-    n = v3_scale(1.0 / v3_norm(n), n);
-    const vec3 out = v3_add(n1, n2);
-    if (v3_dot(n, out) < 0.0)
-        n = v3_scale(-1.0, n);
-    const double c = v3_dot(n1, n2), h1 = v3_dot(n, n1), h2 = v3_dot(n, n2);
-    if (h1 < c * h2 || h2 < c * h1)
-        return; /* not between the faces: the nearest is a face, not this edge */
-    const double distance = v3_dot(n, v3_sub(on_wall, on_body));
-    if (v3_dot(n, inward) < -LEVEL || distance < -s->r ||
-        (distance < 0.0 && !behind_all(p, on_wall)))
-        return; /* the inside of the piece comes nearer; or it passes behind the body */
-    put(s, id, on_body, distance, v3_scale(-1.0, n));
-}
-
-static void of_part(struct facet_search *s, const struct dilated_part *part)
-{
-    const struct polyhedron *const p = part->core;
-    const int corners = s->f->n;
-    for (int k = 0; k < corners; k++) {
-        corner_on_face(s, p, k, k);
-        const vec3 q = s->corner[k], d = v3_sub(s->corner[(k + 1) % corners], q);
-        const vec3 other = v3_sub(s->corner[(k + 2) % corners], q);
-        const vec3 inward = v3_axpy(other, -v3_dot(other, d) / v3_dot(d, d), d);
-        for (int e = 0; e < p->n_edges; e++)
-            edge_on_edge(s, p, e, q, d, v3_scale(1.0 / v3_norm(inward), inward), 4 + 4 * e + k);
-    }
-    s->id += 4 + 4 * p->n_edges;
-}
-
-int dilated_facet(const struct dilated *d, const struct shape_pose *i,
-                  const struct shape_facet *f, double reach, int most, struct shape_point *out)
-{
-    struct facet_search s = {.pose = i,
-                             .f = f,
-                             .reach = reach / i->size,
-                             .most = most,
-                             .id = d->n_balls,
-                             .r = d->r,
-                             .out = out};
+    struct crown_top top;
+    crown_find_top(a, v3_scale(-1.0, f->normal), &top);
+    g->normal = f->normal;
+    g->on_a = top.at;
+    g->gap = -top.height - v3_dot(f->normal, f->corner[0]);
+    crown_set_flat(&top, g);
     for (int k = 0; k < f->n; k++)
-        s.corner[k] = v3_scale(1.0 / i->size, mat3_back(&i->turn, f->corner[k]));
-    for (int k = 0; k < d->n_parts && f->n > 0; k++)
-        of_part(&s, &d->part[k]);
-    return s.n;
+        if (outside(f, k, top.at) > 0.0)
+            return false;
+    return true;
+}
+
+static bool find(const struct crown *a, const struct piece *f, double reach, bool *face,
+                 struct crown_gap *g)
+{
+    *face = try_face(a, f, g);
+    if (*face || g->gap >= reach) /* further than the plane is the piece */
+        return g->gap < reach;
+    const vec3 lowest = g->on_a;
+    for (int k = 0; k < f->n; k++)
+        if (outside(f, k, lowest) > 0.0 && try_point(a, f, k, true, lowest, reach, g))
+            return true;
+    for (int k = 0; k < f->n; k++)
+        if (try_point(a, f, k, false, lowest, reach, g))
+            return true;
+    return false;
+}
+
+/* As in dilated_pair.c. */
+static int put(const struct dilated *d, const struct shape_pose *i, const struct crown_gap *g,
+               bool face, int first, struct shape_point *out)
+{
+    const double size = i->size, depth = size * (d->r - g->gap), wide = sqrt(2.0);
+    const vec3 normal = mat3_turn(&i->turn, g->normal),
+               at = v3_scale(size, mat3_turn(&i->turn, g->on_a));
+    const bool point = !face || g->r11 + g->r22 < CROWN_NARROW;
+    const vec3 side[2] = {v3_add(v3_scale(g->r11, g->e1), v3_scale(g->r12, g->e2)),
+                          v3_add(v3_scale(g->r12, g->e1), v3_scale(g->r22, g->e2))};
+    const int n = point ? 1 : 4;
+    for (int k = 0; k < n; k++) {
+        const double far = point ? 0.0 : k % 2 ? -wide * size : wide * size;
+        const vec3 from = v3_axpy(at, far, mat3_turn(&i->turn, side[k / 2]));
+        out[k] = (struct shape_point){.id = first + (point ? 0 : 1 + k),
+                                      .depth = depth,
+                                      .normal = normal,
+                                      .at_i = v3_axpy(from, 0.5 * depth - size * d->r, normal),
+                                      .from_i = from,
+                                      .r_i = size,
+                                      .scale = size,
+                                      .share = 1.0 / n};
+    }
+    return n;
+}
+
+int dilated_flat(const struct dilated *d, const struct shape_pose *i, int part,
+                 const struct shape_facet *f, double reach, vec3 *core,
+                 struct shape_point out[4])
+{
+    const struct dilated_part *const p = &d->part[part];
+    const struct polyhedron *const c = p->core;
+    const struct crown a = {{c->vertex_room, c->x, c->y, c->z}, p->log_weight, CROWN_SHARP};
+    const double most = reach / i->size + d->r;
+    struct piece own = {.n = f->n, .normal = mat3_back(&i->turn, f->normal)};
+    struct crown_gap g;
+    bool face;
+    for (int k = 0; k < (f->n > 0 ? f->n : 1); k++)
+        own.corner[k] = v3_scale(1.0 / i->size, mat3_back(&i->turn, f->corner[k]));
+    /* the plane is out of reach of the ball about the part */
+    if (v3_dot(own.normal, v3_sub(p->middle, own.corner[0])) > p->radius + reach / i->size)
+        return 0;
+    if (!find(&a, &own, most, &face, &g))
+        return 0;
+    *core = v3_scale(i->size, mat3_turn(&i->turn, g.on_a));
+    return put(d, i, &g, face, d->n_balls + 5 * part, out);
 }

@@ -191,9 +191,6 @@ static int gather(const struct shape_pair *p, const struct parts *w,
     return count;
 }
 
-/* Along which the patch of contact counts as a point. */
-#define NARROW 1e-2
-
 /* The points that stand for a patch: its middle, or, where it is wide, two on either side whose
  * variance is the patch's. The force of all goes through the middle; what each has of its own is
  * friction and the dashpot. */
@@ -202,7 +199,7 @@ static int spread(const struct crown_gap *g, double size, struct patch_point *q)
     const double width = g->r11 + g->r22;
     const vec3 first = v3_add(v3_scale(g->r11, g->e1), v3_scale(g->r12, g->e2)),
                second = v3_add(v3_scale(g->r12, g->e1), v3_scale(g->r22, g->e2));
-    if (width < NARROW * size) {
+    if (width < CROWN_NARROW * size) {
         q[0] = (struct patch_point){0, 1.0, g->gap, g->on_b};
         return 1;
     }
