@@ -1,12 +1,15 @@
 /* shapes/dilated_polyhedron.c - a grain is a convex polyhedron whose corners and edges are rounded by a
  * ball: all points within its radius of a core (the Minkowski sum of both) [LiLiuJi23, eq. 1].
  *
- * Volume, surface and inertia are exact [Steiner1840]. Contact: the exact distance of the cores
- * [Gilbert88] less both radii, shared by the corners of the common patch (geometry/patch.h): faces
- * on faces are together as stiff as a vertex on a face, and the stiffness of all is that of two
- * spheres of the grains' volumes (r_eff of the laws is made of the volume-equivalent radii; the seed
- * leaves its R* open). Cores that overlap are still parted, along the direction of least overlap. Or
- * the smoothed envelope of the seed [LiLiuJi23, eqs 12-13]: one point of contact. */
+ * Volume, surface and inertia are exact [Steiner1840]. Contact: the distance of the cores less both
+ * radii, where the faces of the cores are crowned by a fraction of a percent of the size, so that the
+ * force is smooth and follows from an energy (geometry/crown.h); one stiffness for faces, edges and
+ * vertices, on grains and on flat walls, that of two spheres of the grains' volumes (r_eff of the
+ * laws is made of the volume-equivalent radii; the seed leaves its R* open). Where faces lie on
+ * faces, four points carry friction and the dashpots of the patch. Curved walls are met by the
+ * vertices. The search starts from the last normal, or from the exact distance [Gilbert88]; cores
+ * that overlap are still parted, along the direction of least overlap. Or the smoothed envelope of
+ * the seed [LiLiuJi23, eqs 12-13]: one point of contact. */
 #include "geometry/dilated_species.h"
 #include "shape.h"
 
@@ -14,7 +17,7 @@ const struct about shape_about = {
     .name = "dilated_polyhedron",
     .summary = "a convex polyhedron with rounded edges: cube, prism, STL ...",
     .equation = "depth = r_i + r_j - distance of the cores",
-    .source = "LiLiuJi23, eqs 1, 12-13; Gilbert88",
+    .source = "LiLiuJi23, eqs 1, 12-13; Gilbert88; Boyd04",
     .range = "overlaps below r_i + r_j"};
 const struct key shape_keys[] = {DILATED_KEYS(FORMS_CONVEX), {0}};
 

@@ -2,8 +2,8 @@
  * two of them touch. All in the units of shapes/shape.h: the body's frame, its size as the unit.
  *
  * Parts may overlap; they are one rigid body. Contact between bodies is contact between their
- * parts. Per pair of parts the laws see one contact of depth r_i + r_j - gap, spread over points
- * by their shares (patch.h). */
+ * parts. Per pair of parts the laws see one contact of depth r_i + r_j - gap (crown.h), spread over
+ * points that share its stiffness. */
 #ifndef DILATED_H
 #define DILATED_H
 

@@ -50,7 +50,7 @@ struct dilated_species {
          "",                                                                                   \
          "gjk | envelope",                                                                     \
          "gjk",                                                                                \
-         "gjk: exact distance of the cores, faces held at their corners; envelope: one point " \
+         "gjk: distance of the cores, their faces a little crowned; envelope: one point "      \
          "of contact by optimisation; of all species alike"},                                  \
     {                                                                                          \
         "grains", "smoothness", KEY_REAL, "1", "(0, 1)", "0.01",                               \
