@@ -19,7 +19,7 @@ pack() { # FORM LEAST MOST
 shape   = dilated_polyhedron
 contact = hertz_mindlin
 [domain]
-size = 15 15 $(awk -v n="$grains" 'BEGIN { print 10 + 0.09 * n }') mm
+size = 12 12 $(awk -v n="$grains" 'BEGIN { print 10 + 0.14 * n }') mm
 x = periodic
 y = periodic
 [grains a]
@@ -42,14 +42,14 @@ settle_energy = 1e-4
 bed = end
 END
     "$silt" "$tmp/bed.ini" -o "$tmp/bed" > "$tmp/log" 2>&1 || { tail -n 3 "$tmp/log"; exit 1; }
-    # centres between 3.5 diameters above the floor and 3 below the highest grain
+    # centres between 3 diameters above the floor and 2.5 below the highest grain
     ncdump -v position "$tmp/bed/bed.nc" | awk -v form="$1" -v least="$2" -v most="$3" '
     /^ position =/ { on = 1; next }
     on && /,/ { gsub(/[,;}]/, " "); if (NF >= 3) { z[n++] = $3; top = $3 > top ? $3 : top } }
     END {
-        lo = 0.007; hi = top - 0.006
+        lo = 0.006; hi = top - 0.005
         for (i = 0; i < n; i++) inside += z[i] > lo && z[i] < hi
-        f = inside * 3.14159265 / 6 * 8e-9 / (0.015 * 0.015 * (hi - lo))
+        f = inside * 3.14159265 / 6 * 8e-9 / (0.012 * 0.012 * (hi - lo))
         good = f > least && f < most
         printf "%s %s: %d of %d between %.1f and %.1f mm, packing fraction %.4f (band: %s to %s)\n",
             good ? "ok  " : "FAIL", form, inside, n, 1e3 * lo, 1e3 * hi, f, least, most
