@@ -1,9 +1,7 @@
 /* tools/trade.c - error against cost: trade SCENE axis=values ... (./run.sh trade; study.h).
  *
  * Runs the scene through the variants, `repeats` times each in rounds, and tells the error of each
- * with its cost: wall time of the whole process over the simulated time, medians of the repeats. Those
- * on the front whose runs are short run on until their time is enough to tell it, unless --repeats
- * says how often.
+ * with its cost: wall time of the whole process over the simulated time, medians of the repeats.
  * Writes trade.csv, trade.nc, trade.png and a table; names the cheapest variant within the error
  * asked for (--within, or else the reference's own tolerance). Exit code 1: --within, and none
  * qualifies. */
@@ -61,8 +59,6 @@ static void parse(struct trade *t, int argc, char **argv)
 {
     bool plan = false;
     t->within = (double)NAN;
-    for (int i = 1; i < argc; i++)
-        t->exact = t->exact || strcmp(argv[i], "--repeats") == 0;
     study_arguments(&t->study, "trade", &argc, argv);
     for (int i = 1; i < argc; i++) {
         const char *const name = argv[i], *const value = i + 1 < argc ? argv[i + 1] : "";
@@ -142,9 +138,9 @@ static void print_table(const struct trade *t)
         print_spread(t, i);
         printf(" %11.4g %8.3g\n", t->core[i], t->memory[i] / 1048576.0);
     }
-    printf("* on the Pareto front; cost: %s, median of %d runs in rounds%s; spread: the least, "
+    printf("* on the Pareto front; cost: %s, median of %d runs in rounds; spread: the least, "
            "the most\n",
-           cost_unit(t), s->repeats, t->exact ? "" : ", of short ones on the front more");
+           cost_unit(t), s->repeats);
     for (int q = 0; q < t->n_quantities && t->against == AGAINST_FINEST; q++) {
         printf("compared with %s = %.8g", t->quantity[q], t->truth[q]);
         if (isfinite(t->order[q]))

@@ -26,7 +26,6 @@ struct trade {
     double *error, *cost, *wall, *core, *memory, *low, *high; /* s per simulated
                                            s, or MiB; wall: s of a run */
     double *value;                                            /* n x n_quantities */
-    bool exact; /* --repeats was given: no more runs than that */
     bool *front;
     double truth[MOST_QUANTITIES], doubt[MOST_QUANTITIES], order[MOST_QUANTITIES]; /* finest */
     int best; /* index of the recommended variant, or -1 */

@@ -14,9 +14,7 @@
 
 #define LEAST_ERROR 1e-15 /* what is exact counts as this on a logarithmic scale */
 
-#define ENOUGH 3.0 /* s of core time, from which the cost of a variant on the front is told */
-
-enum { MOST_BATCH = 8, MOST_FRONT = 25 };
+enum { MOST_BATCH = 8 };
 
 /* Next choice of the grid; false after the last. */
 static bool next_choice(const struct study *s, int *choice)
@@ -192,30 +190,6 @@ static void run_once(struct trade *t)
     trade_errors(t);
 }
 
-static bool enough(const struct variant *v)
-{
-    double core = 0.0;
-    for (int k = 0; k < v->n_runs; k++)
-        core += v->run[k].core;
-    return core >= ENOUGH || v->n_runs >= MOST_FRONT || v->ending != RUN_GOOD;
-}
-
-/* What is on the front runs on, in rounds, until its cost is told by enough time. */
-static void settle_front(struct trade *t)
-{
-    bool more = !t->exact;
-    trade_costs(t);
-    trade_errors(t);
-    while (more) {
-        more = false;
-        for (int i = 0; i < t->study.n; i++)
-            if (t->front[i] && !enough(t->study.variant[i])) {
-                study_run(&t->study, t->study.variant[i]);
-                more = true;
-            }
-    }
-}
-
 void trade_run_plan(struct trade *t)
 {
     if (t->plan == PLAN_GRID) {
@@ -231,5 +205,4 @@ void trade_run_plan(struct trade *t)
         }
     }
     study_rounds(&t->study, t->study.variant, t->study.n);
-    settle_front(t);
 }
