@@ -6,7 +6,8 @@
 #include "sim.h"
 
 const struct key wall_keys[] = {
-    {"wall", "kind", KEY_TEXT, "", "", "plane", "what surface: a file of solver/walls/"},
+    {"wall", "kind", KEY_TEXT, "", "", "plane",
+     "what surface: one of those listed below, files of solver/walls/"},
     {"wall", "material", KEY_TEXT, "", "", "",
      "its material; default: \"wall\" if there is one, or that of the first species"},
     {"wall", "point", KEY_VECTOR, "m", "(-inf, inf)", NULL,

@@ -256,8 +256,20 @@ static void print_module(const char *slot, const struct about *a, const struct k
         print_module_keys(keys);
 }
 
+static void print_walls(void)
+{
+    printf("\nwall: what surface?  (solver/walls/, several in a scene: [wall NAME], kind = "
+           "...)\n");
+    for (int k = 0; wall_kinds[k]; k++)
+        printf("  %-15s %s\n", wall_kinds[k]->name, wall_kinds[k]->summary);
+}
+
 static int print_modules(const char *program, const char *slot)
 {
+    if (slot && strcmp(slot, "wall") == 0) {
+        print_walls();
+        return EXIT_GOOD;
+    }
     bool known = !slot || strcmp(slot, force_folder.slot) == 0;
     for (int f = 0; f < FOLDERS; f++)
         known = known || strcmp(slot, folders[f].slot) == 0;
@@ -265,11 +277,13 @@ static int print_modules(const char *program, const char *slot)
         fprintf(stderr, "silt: no such slot: %s; there are", slot);
         for (int f = 0; f < FOLDERS; f++)
             fprintf(stderr, " %s,", folders[f].slot);
-        fprintf(stderr, " %s\n", force_folder.slot);
+        fprintf(stderr, " %s, wall\n", force_folder.slot);
         return EXIT_SCENE;
     }
     only_slot = slot;
     visit_answers(program, print_module);
+    if (!slot)
+        print_walls();
     printf("\nIn a scene: [modules], slot = answer. Symbols and sources: NOTATION.md; keys: "
            "./run.sh keys.\n");
     return EXIT_GOOD;
@@ -296,7 +310,10 @@ static int print_keys(const char *program)
     for (int k = 0; wall_kinds[k]; k++) {
         char *const title =
             xprintf("\nwall, kind = %s: %s", wall_kinds[k]->name, wall_kinds[k]->summary);
-        keys_print(stdout, title, wall_kinds[k]->keys);
+        if (wall_kinds[k]->keys && wall_kinds[k]->keys->section)
+            keys_print(stdout, title, wall_kinds[k]->keys);
+        else
+            printf("%s\n", title);
         xfree(title);
     }
     for (int k = 0; analysis_parts[k]; k++)
