@@ -6,6 +6,7 @@
 #include <netcdf.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -37,8 +38,10 @@ static char *read_text(struct bed_file *b, FILE *file, const char *path)
         const char *const text = line + strspn(line, " \t");
         if (*text == '\0')
             continue;
-        if (b->n == 0 && !header && strchr(line, ',') && isalpha((unsigned char)*text)) {
-            header = true; /* names of the columns of a table in CSV */
+        char *number_end;
+        strtod(text, &number_end);
+        if (b->n == 0 && !header && number_end == text && isalpha((unsigned char)*text)) {
+            header = true; /* names of the columns */
             continue;
         }
         for (char *c = line; *c; c++)

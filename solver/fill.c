@@ -24,7 +24,6 @@
 #define SETTLE_LOOSE 0.28
 #define SWELL        0.01
 
-enum { LATTICE, RANDOM, SETTLE, GROW, UNIT_CELL, POINT, FROM_FILE };
 enum { TRIES = 10, COUNT_MOST = 100000000, ROOM_POINTS = 1 << 18, HEIGHT_POINTS = 1 << 13 };
 
 static struct fill_region region_read(struct sim *s, struct scene *scene, const char *name,
@@ -220,7 +219,7 @@ static void part(struct fill_grid *b, int first, const struct fill_region *regio
 
 static bool at_random(int how)
 {
-    return how == RANDOM || how == SETTLE || how == GROW;
+    return how == FILL_RANDOM || how == FILL_SETTLE || how == FILL_GROW;
 }
 
 /* All species that are placed at random, together. */
@@ -238,7 +237,7 @@ static void fill_random(struct sim *s, struct fill_grid *b, struct fill_task *ta
             continue;
         goal.walls = goal.walls ? goal.walls : task[k].walls;
         goal.solid += solid_fraction(&task[k]);
-        if (how[k] == GROW) {
+        if (how[k] == FILL_GROW) {
             grows = true;
             goal.overlap = fmin(goal.overlap,
                                 scene_real(task[k].scene, "grains", task[k].name, "overlap"));
@@ -291,64 +290,43 @@ static void prepare(struct sim *s, struct fill_task *t, int how)
 {
     const char *const key = amount_key(t->scene, t->name);
     const bool one = t->sizes->kind == SIZES_ONE;
-    if (how == UNIT_CELL || how == FROM_FILE)
+    if (how == FILL_UNIT_CELL || how == FILL_FILE)
         return;
     t->walls = walls_named(s) && !s->grains.species[t->species].frozen ? s : NULL;
     t->room =
-        how == POINT || how == LATTICE
+        how == FILL_POINT || how == FILL_LATTICE
             ? region_volume(&t->region)
             : room_volume(t->walls, &t->region, key[0] == 'p' ? ROOM_POINTS : HEIGHT_POINTS);
     draw_sizes(s, t, key);
-    if (how == LATTICE)
+    if (how == FILL_LATTICE)
         fits(t, key, LATTICE_MOST, "can lie on a lattice");
-    else if (how != POINT &&
+    else if (how != FILL_POINT &&
              fits(t, key,
-                  !one          ? SIZES_MOST
-                  : how == GROW ? GROW_MOST
-                                : RANDOM_MOST,
-                  how == GROW ? "find room" : "find room at random (fill = grow: more)") &&
-             how == SETTLE)
+                  !one               ? SIZES_MOST
+                  : how == FILL_GROW ? GROW_MOST
+                                     : RANDOM_MOST,
+                  how == FILL_GROW ? "find room" : "find room at random (fill = grow: more)") &&
+             how == FILL_SETTLE)
         lower_part(t);
 }
 
 static void place(struct fill_grid *b, struct fill_task *t, int how, struct fill_motion *m)
 {
     switch (how) {
-    case LATTICE:
+    case FILL_LATTICE:
         fill_lattice(b, t);
         break;
-    case UNIT_CELL:
+    case FILL_UNIT_CELL:
         fill_unit_cell(b, t);
         break;
-    case POINT:
+    case FILL_POINT:
         fill_point(b, t);
         break;
-    case FROM_FILE:
+    case FILL_FILE:
         fill_from_file(b, t, m);
         break;
     default:
         break; /* at random: all of these together, later */
-    }
-}
-
-/* A grain that moves must not start inside a wall of the box. */
-static void check_walls(const struct sim *s, struct scene *scene, const struct fill_grid *b,
-                        const char *const *names)
-{
-    for (int i = 0; i < b->n; i++) {
-        const struct placed *const p = &b->grain[i];
-        const double x[3] = {p->pos.x, p->pos.y, p->pos.z};
-        for (int a = 0; a < 3 && !s->grains.species[p->species].frozen; a++) {
-            const double room = fmin(x[a], s->domain.size[a] - x[a]),
-                         radius = 0.5 * p->diameter;
-            if (s->domain.periodic[a] || room >= (1.0 - s->run.overlap_max) * radius)
-                continue;
-            scene_error(
-                scene, "grains", names[p->species], "fill",
-                "places a grain at %.6g %.6g %.6g m, of radius %g m, inside a wall in %c", x[0],
-                x[1], x[2], radius, 'x' + a);
-            return;
-        }
     }
 }
 
@@ -390,7 +368,7 @@ void fill(struct sim *s, struct scene *scene, struct fill *f)
         for (int i = 0; i < motion.n && shape.flat; i++)
             motion.vel[i].y = motion.spin[i].x = motion.spin[i].z = 0.0;
         if (!shape.path->turning) /* of others, walls_check tells where they reach */
-            check_walls(s, scene, &b, names);
+            fill_check(s, scene, &b, names);
         *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin, motion.turn};
         b.grain = NULL;
         fill_grid_close(&b);
@@ -415,7 +393,7 @@ bool fill_settles(struct sim *s, struct scene *scene)
     const char *const *names;
     scene_names(scene, "grains", &names);
     for (int i = 0; i < s->grains.n_species; i++)
-        if (scene_choice(scene, "grains", names[i], "fill") == SETTLE)
+        if (scene_choice(scene, "grains", names[i], "fill") == FILL_SETTLE)
             return true;
     return false;
 }

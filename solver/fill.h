@@ -7,6 +7,17 @@
 
 struct sim;
 
+/* How, in the order of the key grains.fill. */
+enum {
+    FILL_LATTICE,
+    FILL_RANDOM,
+    FILL_SETTLE,
+    FILL_GROW,
+    FILL_UNIT_CELL,
+    FILL_POINT,
+    FILL_FILE
+};
+
 struct placed {
     vec3 pos;        /* m */
     double diameter; /* m, of the bounding sphere */

@@ -43,4 +43,10 @@ double fill_grid_overlap(const struct fill_grid *b, vec3 x, double diameter, dou
  * out; up to `most` of them in `out`; returns how many there are. */
 int fill_grid_near(const struct fill_grid *b, int i, double gap, int *out, int most);
 
+struct sim;
+/* fill_check.c: spheres that start too deep in a side of the box or in one another, on the scene's list
+ * of errors; `names` of the species. */
+void fill_check(const struct sim *s, struct scene *scene, const struct fill_grid *b,
+                const char *const *names);
+
 #endif

@@ -13,7 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include "../shapes/shape.h"
 #include "bed_file.h"
+#include "contact_path.h"
+#include "fill.h"
 #include "units.h"
 
 #define GOLDEN     0.61803398874989484820
@@ -249,6 +252,39 @@ static void read_table(struct sizes *z, struct scene *s, const char *name)
     xfree(rows);
 }
 
+/* Whether grain i of a file is of the species that is to take it, see fill_from_file. */
+static bool takes(const struct bed_file *f, int i, const char *species)
+{
+    return !f->kind || f->n_species < 2 || strcmp(f->species[f->kind[i]], species) == 0;
+}
+
+/* From the finest to the widest grain of the file that the species is filled from; false where no file
+ * tells, or where it tells the diameters of bounding spheres of other shapes. */
+static bool read_file(struct sizes *z, struct scene *s, const char *name)
+{
+    const char *const asked = scene_text(s, "grains", name, "file_species");
+    struct bed_file f;
+    if (!scene_word(s, "grains", name, "diameter", "auto") || shape.path->turning ||
+        scene_choice(s, "grains", name, "fill") != FILL_FILE)
+        return false;
+    char *const why = bed_file_read(&f, scene_text(s, "grains", name, "file"), scene_path(s));
+    double least = (double)INFINITY, largest = 0.0;
+    for (int i = 0; !why && i < f.n; i++)
+        if (takes(&f, i, asked[0] ? asked : name)) {
+            least = fmin(least, f.diameter[i]);
+            largest = fmax(largest, f.diameter[i]);
+        }
+    if (why)
+        scene_error(s, "grains", name, "file", "%s", why);
+    else
+        bed_file_free(&f);
+    if (why || largest > 0.0)
+        one_class(z, why ? 1e-9 : least, why ? 1e-9 : largest);
+    const bool told = why || largest > 0.0;
+    xfree(why);
+    return told;
+}
+
 void sizes_read(struct sizes *z, struct scene *s, const char *name)
 {
     *z = (struct sizes){0};
@@ -257,6 +293,8 @@ void sizes_read(struct sizes *z, struct scene *s, const char *name)
         z->by_mass = scene_choice(s, "grains", name, "sizes_by") == 0;
     switch (z->kind) {
     case SIZES_ONE: {
+        if (read_file(z, s, name))
+            break;
         const double d = needed(s, name, "diameter", "");
         one_class(z, d > 0.0 ? d : 1.0, d > 0.0 ? d : 1.0);
         break;
