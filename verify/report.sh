@@ -43,7 +43,7 @@ source_of() {
 verdict() { # pass|FAIL|...
     case $1 in
         pass | ok) echo '<td class="good">pass</td>' ;;
-        none) echo '<td>none</td>' ;;
+        none | "") echo '<td>none</td>' ;;
         *) echo "<td class=\"bad\">$1</td>" ;;
     esac
 }
@@ -57,6 +57,13 @@ scene_rows() {
     for f in "$from"/scenes/*/summary.txt; do
         [ -e "$f" ] || continue
         name=$(basename "$(dirname "$f")")
+        if ! grep -q '^verdict = ' "$f"; then # no reference: what it handed over and what is left
+            printf '<tr><td>%s<td>none<td>ledger of mass, momentum, energy<td>%s<td>closes<td><td>' "$name" \
+                "$(text "$f" ledger | escape)"
+            verdict "$(text "$f" ledger | sed 's/^closes.*/pass/' | escape)"
+            printf '<td>%.3g s</tr>\n' "$(value "$f" wall_time)"
+            continue
+        fi
         printf '<tr><td>%s<td>%s<td>%s<td>%s<td>%s<td>%s<td>%s' "$name" \
             "$(source_of "$(text "$f" reference_source)") ($(value "$f" module_reference))" \
             "$(text "$f" reference_quantity | escape)" "$(text "$f" reference_value)" \
