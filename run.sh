@@ -16,7 +16,8 @@ usage() {
 ./run.sh check SCENE [section.key=value ...]
                          the feasibility report: every limit as a ratio; runs nothing
 ./run.sh trade SCENE axis=values ... [--within 5%]
-                         error against cost; axis: a key, a slot, real, threads, a named axis
+                         error against cost; axis: a key, a slot, real, threads, a named axis,
+                         or name@FILE: sets of keys, as scenes/studies/grains.sets
 ./run.sh extremes SCENE [axis=values ...]
                          where it breaks: each point right, wrong, refused, stopped or broken
 ./run.sh study FILE [--short] [-o DIR]

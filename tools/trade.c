@@ -120,9 +120,12 @@ static void print_table(const struct trade *t)
     size_t width = 8;
     for (int i = 0; i < s->n; i++)
         width = width > strlen(s->variant[i]->label) ? width : strlen(s->variant[i]->label);
-    printf("%4s %-*s %11s %11s %11s %11s %8s\n%4s %-*s %11s %11s %11s %11s %8s\n", "",
-           (int)width, "variant", "error", "cost", "spread", "core", "memory", "", (int)width,
-           "", "1", "s/s", "", "s/s", "MiB");
+    printf("%4s %-*s %11s %11s %11s %11s %8s", "", (int)width, "variant", "error", "cost",
+           "spread", "core", "memory");
+    for (int q = 0; q < t->n_quantities; q++)
+        printf(" %13s", t->quantity[q]);
+    printf("\n%4s %-*s %11s %11s %11s %11s %8s\n", "", (int)width, "", "1", "s/s", "", "s/s",
+           "MiB");
     for (int i = 0; i < s->n; i++) {
         const struct variant *const v = s->variant[i];
         printf("%3d%c %-*s", v->number, t->front[i] ? '*' : ' ', (int)width, v->label);
@@ -136,11 +139,15 @@ static void print_table(const struct trade *t)
         }
         printf(" %11.4g %11.4g", t->error[i], t->cost[i]);
         print_spread(t, i);
-        printf(" %11.4g %8.3g\n", t->core[i], t->memory[i] / 1048576.0);
+        printf(" %11.4g %8.3g", t->core[i], t->memory[i] / 1048576.0);
+        for (int q = 0; q < t->n_quantities; q++)
+            printf(" %*.4g", (int)fmax(13.0, (double)strlen(t->quantity[q])),
+                   t->value[i * t->n_quantities + q]);
+        printf("\n");
     }
-    printf("* on the Pareto front; cost: %s, median of %d runs in rounds; spread: the least, "
+    printf("* on the Pareto front; cost: %s, median of %d runs%s in rounds; spread: the least, "
            "the most\n",
-           cost_unit(t), s->repeats);
+           cost_unit(t), s->repeats, s->more ? " and more of short ones" : "");
     for (int q = 0; q < t->n_quantities && t->against == AGAINST_FINEST; q++) {
         printf("compared with %s = %.8g", t->quantity[q], t->truth[q]);
         if (isfinite(t->order[q]))

@@ -35,6 +35,34 @@ static void axes(void)
     check(a.n == 2 && strcmp(a.value[0], "8 8 16") == 0, "are left as they are: %s",
           a.value[0]);
     axis_free(&a);
+    char *const sets = in_folder("grains.sets");
+    FILE *const f = fopen(sets, "w");
+    fputs(
+        "; two\n[round]\nmodules.shape = sphere\n[block 8]\nmodules.shape = superquadric ; c\n"
+        "grains a.half_axes = 1 1 1.7\n",
+        f);
+    fclose(f);
+    char *const all = xprintf("grain@%s=all", sets), *const none =
+                                                         xprintf("grain@%s=oval", sets);
+    check(!axis_parse(&a, all), "sets of keys from a file");
+    check(a.n == 2 && a.words && strcmp(a.name, "grain") == 0 &&
+              strcmp(a.value[1], "block 8") == 0,
+          "all of them, in order");
+    char *lines;
+    check(!sets_read(&a, "block 8", &lines), "a set is read");
+    check(strcmp(lines, "modules.shape=superquadric\ngrains a.half_axes=1 1 1.7") == 0,
+          "as overrides: %s", lines);
+    xfree(lines);
+    axis_free(&a);
+    char *const no_set = axis_parse(&a, none);
+    check(no_set && strstr(no_set, "no [oval]"), "a set that is not there: %s", no_set);
+    axis_free(&a);
+    char *const why_file = axis_parse(&a, "grain@/nowhere.sets=all");
+    check(why_file && strstr(why_file, "no such file"), "a file that is not: %s", why_file);
+    axis_free(&a);
+    char *const mine[] = {sets, all, none, no_set, why_file};
+    for (size_t i = 0; i < sizeof mine / sizeof mine[0]; i++)
+        xfree(mine[i]);
     static const char *const wrong[] = {"nonsense=1,2",      "drag=",      "run.dt=1:2",
                                         "real=half",         "threads=0",  "drag=a,,b",
                                         "run.dt=1:-1:3:log", "run.dt=3,3", "run.dt"};

@@ -1,4 +1,5 @@
-/* axis.c - "drag=ergun,di_felice", "run.dt=1:100:5 us": the values along an axis. */
+/* axis.c - "drag=ergun,di_felice", "run.dt=1:100:5 us", "grain@grains.sets=all": the values along an
+ * axis. */
 #include <stdlib.h>
 #include <string.h>
 #include "study.h"
@@ -32,7 +33,14 @@ void axis_free(struct axis *a)
 /* What the name stands for; false if nothing. */
 static bool find_key(struct axis *a)
 {
+    char *const at = strchr(a->name, '@');
     a->kind = AXIS_KEY;
+    if (at && at > a->name) {
+        a->kind = AXIS_SETS;
+        a->key = xstrdup(at + 1);
+        *at = '\0';
+        return true;
+    }
     if (strchr(a->name, '.')) {
         a->key = xstrdup(a->name);
         return true;
@@ -154,6 +162,16 @@ static void find_scale(struct axis *a)
         a->log = true;
 }
 
+static char *check_set(struct axis *a, int i)
+{
+    char *lines;
+    char *const wrong = sets_read(a, a->value[i], &lines);
+    xfree(lines);
+    a->number[i] = (double)NAN; /* a name, even where it looks like a number */
+    a->words = true;
+    return wrong;
+}
+
 char *axis_parse(struct axis *a, const char *text)
 {
     const char *const equals = strchr(text, '=');
@@ -163,8 +181,8 @@ char *axis_parse(struct axis *a, const char *text)
     a->name = trimmed(text, equals);
     if (!find_key(a))
         return xprintf(
-            "%s: no such axis: a key (section.key), a slot, real, threads, or a named "
-            "axis (./run.sh axes)",
+            "%s: no such axis: a key (section.key), a slot, real, threads, a named axis "
+            "(./run.sh axes), or name@FILE of sets of keys",
             a->name);
     const char *values = equals + 1;
     while (*values == ' ')
@@ -173,14 +191,18 @@ char *axis_parse(struct axis *a, const char *text)
         return xprintf("%s: no values", a->name);
     const char *const unit = common_unit(values);
     char *wrong = NULL;
-    if (strchr(values, ':') && strspn(values, "0123456789.+-eE") > 0 &&
-        values[strspn(values, "0123456789.+-eE")] == ':')
+    if (a->kind == AXIS_SETS && strcmp(values, "all") == 0)
+        wrong = sets_all(a);
+    else if (strchr(values, ':') && strspn(values, "0123456789.+-eE") > 0 &&
+             values[strspn(values, "0123456789.+-eE")] == ':')
         wrong = add_range(a, values, unit);
     else
         add_list(a, values, unit);
     for (int i = 0; !wrong && i < a->n; i++) {
         if (a->value[i][0] == '\0')
             wrong = xprintf("%s: an empty value", text);
+        else if (a->kind == AXIS_SETS)
+            wrong = check_set(a, i);
         else if (a->kind == AXIS_REAL && strcmp(a->value[i], "double") != 0 &&
                  strcmp(a->value[i], "float") != 0)
             wrong = xprintf("%s: real is double or float", text);

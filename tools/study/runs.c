@@ -8,6 +8,8 @@
 #include "study.h"
 
 #define LONG_RUN 20.0 /* s; longer ones are repeated once less: they average over the noise */
+#define ENOUGH                                                                                 \
+    1.0 /* s of core time of all runs of a variant: a median of few short runs is noise */
 
 /* Ends the program where a signal asked for it. */
 static void obey_signal(struct study *s)
@@ -175,6 +177,14 @@ void study_run(struct study *s, struct variant *v)
     xfree(summary);
 }
 
+static bool short_of_time(const struct study *s, const struct variant *v)
+{
+    double all = 0.0;
+    for (int k = 0; k < v->n_runs; k++)
+        all += v->run[k].core;
+    return s->more && v->ending == RUN_GOOD && all < ENOUGH && v->n_runs < MOST_REPEATS;
+}
+
 void study_rounds(struct study *s, struct variant *const *list, int n)
 {
     s->expected = n * s->repeats;
@@ -187,6 +197,14 @@ void study_rounds(struct study *s, struct variant *const *list, int n)
             if (v->n_runs < most)
                 study_run(s, v);
         }
+    for (bool any = true; any;) {
+        any = false;
+        for (int k = 0; k < n; k++)
+            if (short_of_time(s, list[k])) {
+                study_run(s, list[k]);
+                any = true;
+            }
+    }
     if (s->made + s->found > 0 && isatty(STDERR_FILENO) == 1)
         fputs("\r\033[K", stderr);
 }

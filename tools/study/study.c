@@ -58,9 +58,10 @@ static bool common_option(struct study *s, int argc, char **argv, int *i)
         s->directory = xstrdup(value);
     else if (strcmp(name, "-j") == 0)
         s->threads = (int)option_number(name, value, 1, 1024);
-    else if (strcmp(name, "--repeats") == 0)
+    else if (strcmp(name, "--repeats") == 0) {
         s->repeats = (int)option_number(name, value, 1, MOST_REPEATS);
-    else if (strcmp(name, "--timeout") == 0)
+        s->more = false;
+    } else if (strcmp(name, "--timeout") == 0)
         s->timeout = option_number(name, value, 0.01, 1e9);
     else
         takes = false;
@@ -79,6 +80,7 @@ void study_arguments(struct study *s, const char *verb, int *argc, char **argv)
 {
     int left = 1;
     s->verb = verb;
+    s->more = s->repeats == 0;
     s->repeats = s->repeats ? s->repeats : STUDY_REPEATS;
     char *const tools = xstrdup(argv[0]), *const slash = strrchr(tools, '/');
     if (slash)
@@ -194,7 +196,19 @@ static char *variant_label(const struct study *s, const int *choice)
     return label;
 }
 
-/* NULL, or why a named axis does not apply. */
+/* Returns NULL, or what is wrong with the file. */
+static char *add_set(struct variant *v, const struct axis *x, int c)
+{
+    char *lines, *rest = NULL;
+    char *const wrong = sets_read(x, x->value[c], &lines);
+    for (char *l = wrong ? NULL : strtok_r(lines, "\n", &rest); l;
+         l = strtok_r(NULL, "\n", &rest))
+        add_override(v, xstrdup(l));
+    xfree(lines);
+    return wrong;
+}
+
+/* NULL, or why an axis does not apply. */
 static char *fill_overrides(struct study *s, struct variant *v)
 {
     char *why = NULL;
@@ -209,6 +223,8 @@ static char *fill_overrides(struct study *s, struct variant *v)
                 continue;
             if (pass == 0 && x->kind == AXIS_KEY)
                 add_override(v, xprintf("%s=%s", x->key, x->value[c]));
+            if (pass == 0 && x->kind == AXIS_SETS && (why = add_set(v, x, c)))
+                return why;
             if (pass == 0 && x->kind == AXIS_THREADS)
                 v->threads = (int)x->number[c];
             if (pass == 0 && x->kind == AXIS_REAL) {

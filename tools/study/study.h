@@ -1,7 +1,8 @@
 /* study.h - many runs of one scene: axes, variants, their runs, what is kept of them.
  *
  * A study takes one scene through variants. An axis is a key of the scene, a slot, a named axis
- * (named.c: "cell_d", "density_ratio"), `real` or `threads`; a variant chooses one value of each.
+ * (named.c: "cell_d", "density_ratio"), sets of keys from a file (sets.c), `real` or `threads`; a
+ * variant chooses one value of each.
  * Each variant is an ordinary run: the scene with overrides, in the binary built for just that
  * (./run.sh build), as a process of its own. What a run gave is written to a journal at once, so
  * that a study which was interrupted goes on where it was; a run counts again only for the same
@@ -18,11 +19,11 @@
 
 enum { MOST_AXES = 16, MOST_REPEATS = 64 };
 
-enum axis_kind { AXIS_KEY, AXIS_NAMED, AXIS_REAL, AXIS_THREADS };
+enum axis_kind { AXIS_KEY, AXIS_NAMED, AXIS_SETS, AXIS_REAL, AXIS_THREADS };
 
 struct axis {
     char *name; /* as asked for: "drag", "domain.cells", "cell_d" */
-    char *key;  /* "modules.drag"; of a named axis its name */
+    char *key;  /* "modules.drag"; of a named axis its name; of sets their file */
     enum axis_kind kind;
     bool words; /* its values are no numbers */
     bool log;   /* its numbers lie evenly on a logarithmic scale */
@@ -88,7 +89,9 @@ struct study {
     int n_base;
     int n, capacity;
     struct variant **variant;
-    int repeats, threads;                 /* threads: -j; 0: as the run finds fit */
+    int repeats, threads; /* threads: -j; 0: as the run finds fit */
+    bool
+        more; /* --repeats not given: short runs are repeated until they make a second of core time */
     double timeout;                       /* s, for one run; 0: none */
     char *(*inspect)(const char *folder); /* of a run that ended well: what is wrong with its
                                              output (xfree), or NULL */
@@ -116,7 +119,8 @@ struct variant *study_variant(struct study *s, const int *choice, char **why);
  * where a signal stops the study. */
 void study_run(struct study *s, struct variant *v);
 /* Runs all variants `repeats` times, in rounds, so that whatever else the machine does falls on
- * all of them; those longer than LONG_RUN s once less often. */
+ * all of them; those longer than LONG_RUN s once less often, and where --repeats is not given those
+ * that are short until their runs make ENOUGH s of core time (or are MOST_REPEATS). */
 void study_rounds(struct study *s, struct variant *const *list, int n);
 char *run_folder(const struct study *s, const struct variant *v); /* xfree */
 char *study_path(const struct study *s, const char *name);        /* in the folder; xfree */
@@ -128,6 +132,12 @@ char *study_path(const struct study *s, const char *name);        /* in the fold
 char *axis_parse(struct axis *a, const char *text);
 int axis_add(struct axis *a, const char *value, double number); /* returns its index */
 void axis_free(struct axis *a);
+
+/* ---- sets.c ---- */
+/* Both return NULL, or what is wrong (xfree). */
+char *sets_all(struct axis *a); /* adds every value of the file */
+/* *lines: the overrides of a value, one a line (xfree); NULL where something is wrong. */
+char *sets_read(const struct axis *a, const char *value, char **lines);
 
 /* ---- named.c ---- */
 struct named_axis {
