@@ -304,11 +304,6 @@ int main(void)
         check_bounce(way[k], "rib narrower than it", PLATE("48 30 20", "4 0 0"));
         check_bounce(way[k], "table over its edge", PLATE("52.5 30 20", "30 0 0"));
     }
-    check_bounce(
-        way[0], "cube",
-        "[grains d]\nfrozen = yes\norientation = aligned\ndiameter = 20 mm\nform = cube\n"
-        "dilation = 1 mm\ndensity = 2500 kg/m3\nfill = point\nmaterial = m\n"
-        "position = 50 50 9 mm\n");
     check_slope();
     return check_end();
 }
