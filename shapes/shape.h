@@ -168,8 +168,10 @@ struct shape {
                   nothing moves along y nor turns about x and z */
 
     /* contact_spheres: sets depth, normal and levers of each candidate. r_i, r_j and r_eff are
-     * there already, from the bounding radii (r_j = 0 for a wall); a shape whose surface curves
-     * otherwise sets them anew. A pair that does not overlap gets a negative depth (its gap). */
+     * there already, from the bounding radii (r_j = 0 for a wall). A pair that does not overlap gets
+     * a negative depth (its gap). Asked for contacts with walls and for views of contacts; of pairs in
+     * the loop contact_block.c takes every grain for the sphere of its bounding radius, so this path
+     * is for shapes that are that. */
     void (*overlaps)(const struct grains *g, const struct candidates *c, struct touch *t,
                      struct levers *l);
 

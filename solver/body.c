@@ -10,8 +10,8 @@ void frame_of(struct frame *f, const struct domain *d)
 #ifdef SILT_FLOAT
         const double span = d->periodic[a] ? d->size[a] : 2.0 * d->size[a];
         f->origin[a] = d->periodic[a] ? 0.0 : 0.5 * d->size[a];
-        f->per_step[a] = span * 0x1p-32;
-        f->scale[a] = (real)f->per_step[a];
+        f->per_metre[a] = 0x1p32 / span;
+        f->scale[a] = (real)(span * 0x1p-32);
 #else
         f->scale[a] = 1.0;
         f->image[a] = d->image[a];
@@ -46,7 +46,8 @@ void bodies_sort(struct sim *s, const int *order, int listed)
             fill(s, &sorted[i], i);
         } else {
             sorted[i] = s->bodies[order[i]];
-            sorted[i].place = frame_place(&s->frame, s->grains.pos[i]);
+            const vec3 x = s->grains.pos[i];
+            sorted[i].place = frame_place(&s->frame, (double4){x.x, x.y, x.z, 0.0});
         }
     }
     xfree(s->bodies);

@@ -39,24 +39,23 @@ struct motion_state {
 
 /* How places are written and their differences read back, from the box. */
 struct frame {
-    double origin[3], per_step[3]; /* float: place = (x - origin) / per_step */
-    real scale[3];                 /* m per step of a difference; 1 in double */
-    real image[3], inv_image[3];   /* nearest image of a difference; 0 where not needed */
+    double4 origin, per_metre;   /* float: place = (x - origin) per_metre */
+    real scale[3];               /* m per step of a difference; 1 in double */
+    real image[3], inv_image[3]; /* nearest image of a difference; 0 where not needed */
 };
 
 void frame_of(struct frame *f, const struct domain *d);
 
-static inline coordinate4 frame_place(const struct frame *f, vec3 x)
+/* The place at x y z and 0. */
+static inline coordinate4 frame_place(const struct frame *f, double4 x)
 {
 #ifdef SILT_FLOAT
-    const double at[3] = {(x.x - f->origin[0]) / f->per_step[0],
-                          (x.y - f->origin[1]) / f->per_step[1],
-                          (x.z - f->origin[2]) / f->per_step[2]};
-    return (coordinate4){(int32_t)(uint32_t)(int64_t)at[0], (int32_t)(uint32_t)(int64_t)at[1],
-                         (int32_t)(uint32_t)(int64_t)at[2], 0};
+    typedef int64_t long4 __attribute__((vector_size(4 * sizeof(int64_t))));
+    const long4 steps = __builtin_convertvector((x - f->origin) * f->per_metre, long4);
+    return __builtin_convertvector(steps, coordinate4); /* the lower halves: it goes round */
 #else
     (void)f;
-    return (coordinate4){x.x, x.y, x.z, 0.0};
+    return x;
 #endif
 }
 
@@ -104,7 +103,7 @@ static inline void body_write(struct body *b, const struct frame *f,
                               const struct motion_state *m, double4 full)
 {
     real8 vel_spin;
-    b->place = frame_place(f, motion_pos(m));
+    b->place = frame_place(f, m->pos);
     b->full = __builtin_convertvector(full, real4);
     vel_spin = __builtin_convertvector(m->vel_spin, real8);
     __builtin_memcpy(&b->vel, &vel_spin, sizeof vel_spin);
@@ -114,19 +113,16 @@ static inline void body_write(struct body *b, const struct frame *f,
  * of the frame, not yet by the nearest image. */
 static inline real8 body_apart(const struct body *i, const struct body *j)
 {
-    real8 apart;
 #ifdef SILT_FLOAT
     const real4 place = __builtin_convertvector(i->place - j->place, real4);
     const real4 full = i->full - j->full;
-    __builtin_memcpy(&apart, &place, sizeof place);
-    __builtin_memcpy((real4 *)&apart + 1, &full, sizeof full);
+    return __builtin_shufflevector(place, full, 0, 1, 2, 3, 4, 5, 6, 7);
 #else
     real8 a, b;
     __builtin_memcpy(&a, i, sizeof a);
     __builtin_memcpy(&b, j, sizeof b);
-    apart = a - b;
+    return a - b;
 #endif
-    return apart;
 }
 
 /* Writes every body from the arrays of the grains, with full = vel: at the start. */

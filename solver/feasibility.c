@@ -204,7 +204,7 @@ static void grid_lines(const struct sim *s, struct feasibility *f)
 static double memory(const struct sim *s)
 {
     const double cells = (double)s->grid.total;
-    return 1100.0 * (s->grains.n + insert_expected(s)) +
+    return 1000.0 * (s->grains.n + insert_expected(s)) +
            (s->fluid.bare ? 100.0 : 275.0) * cells; /* as measured */
 }
 
