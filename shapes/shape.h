@@ -37,8 +37,10 @@ extern const struct contact_path contact_spheres, contact_points;
 
 /* Candidate pairs, up to TOUCH; for a wall contact j is i. */
 struct candidates {
-    int n; /* a multiple of TOUCH_LANES */
-    int i[TOUCH], j[TOUCH];
+    int n;       /* a multiple of TOUCH_LANES */
+    _Alignas(64) /* this and all arrays below, as in touch.h */
+        int i[TOUCH],
+        j[TOUCH];
     const struct wall *wall[TOUCH];       /* NULL: grain against grain */
     real dx[TOUCH], dy[TOUCH], dz[TOUCH]; /* m, x_i - x_j by the nearest image; wall: from the
                                              wall's nearest point to x_i */

@@ -43,9 +43,9 @@ static inline void sums_part(double8 both, vec3 *force, vec3 *torque)
 }
 
 struct block {
-    int n;           /* contacts so far, TOUCH at most */
-    bool walls;      /* of wall slots */
-    int slot[TOUCH]; /* of the list */
+    int n;                        /* contacts so far, TOUCH at most */
+    bool walls;                   /* of wall slots */
+    _Alignas(64) int slot[TOUCH]; /* of the list */
     struct candidates c;
     struct touch t;
     struct levers l;

@@ -41,18 +41,21 @@ void laws_couples(const struct block *b, double8 torque[3]);
 /* J, stored by the contacts within `reach`; after laws_apply. */
 double laws_energy(struct block *b, double reach, const real *share);
 
-static inline double8 laws_wide(const real row[8])
-{
-    real8 a;
-    memcpy(&a, row, sizeof a);
-    return __builtin_convertvector(a, double8);
-}
-
+/* Eight numbers in double. By a loop, which gcc 12 turns into one conversion; of vectors it makes two
+ * halves. */
 static inline double8 laws_eight(const real *x)
 {
-    real8 a;
-    memcpy(&a, x, sizeof a);
-    return __builtin_convertvector(a, double8);
+    double wide[8];
+    double8 a;
+    for (int k = 0; k < 8; k++)
+        wide[k] = (double)x[k];
+    memcpy(&a, wide, sizeof a);
+    return a;
+}
+
+static inline double8 laws_wide(const real row[8])
+{
+    return laws_eight(row);
 }
 
 static inline double4 laws_force(const struct block *b, int c)
