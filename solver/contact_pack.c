@@ -45,10 +45,12 @@ void pack_put_back(struct sim *s, int run)
 {
     const struct neighbours *const nb = &s->neighbours;
     const struct slots *const l = &nb->pairs;
-    const int *const active = &l->active[l->begin[run * RUN]];
     const int rows = nb->rows;
     const real reach = (real)nb->reach;
     struct pack *const p = &s->contacts->pack[run];
+    if (p->n == 0) /* a run that is no longer, perhaps */
+        return;
+    const int *const active = &l->active[l->begin[run * RUN]];
     for (int k = 0; k < p->n; k++) {
         const struct pack_block *const b = pack_block(p, k / TOUCH, rows);
         const int c = k % TOUCH, slot = active[k];
