@@ -172,20 +172,29 @@ void search_free(struct search *c)
     xfree(c->begin);
 }
 
-/* Neighbouring cells along an axis, each once; returns how many. */
-static int around(const struct search_class *l, const struct domain *d, int i, int a,
-                  int out[3])
+static int step_of(double x, double edge)
 {
+    return (int)fmin(fmax(floor(x / edge), -2.0), 1001.0);
+}
+
+/* Cells along an axis that hold what is nearer than `reach` (an edge at most) to x, each once;
+ * returns how many: two, mostly, of a class whose grains are much larger. */
+static int around(const struct search_class *l, const struct domain *d, double x, double reach,
+                  int a, int out[3])
+{
+    const int home = index_along(l, d, x, a), last = l->n[a] - 1;
+    const double wide = reach * (1.0 + 1e-9); /* above round-off */
+    const int low = step_of(x - wide, l->edge[a]), high = step_of(x + wide, l->edge[a]);
+    const bool wrapped = d->periodic[a] && step_of(x, l->edge[a]) != home; /* x is the size */
     int n = 0;
-    for (int o = -1; o <= 1; o++) {
-        int k = i + o;
-        if (d->periodic[a])
-            k = (k + l->n[a]) % l->n[a];
-        bool seen = k < 0 || k >= l->n[a];
+    for (int k = home - 1; k <= home + 1; k++) {
+        const int i = d->periodic[a] ? (k + l->n[a]) % l->n[a] : k;
+        bool seen = k != home && !wrapped && (k < low || k > high);
+        seen = seen || i < 0 || i > last;
         for (int m = 0; m < n; m++)
-            seen = seen || out[m] == k;
+            seen = seen || out[m] == i;
         if (!seen)
-            out[n++] = k;
+            out[n++] = i;
     }
     return n;
 }
@@ -219,7 +228,8 @@ int search_pairs(const struct search *c, const struct sim *s, double margin, int
         const struct search_class *const l = &c->class[level];
         int near[3][3], count[3];
         for (int a = 0; a < 3; a++)
-            count[a] = around(l, &s->domain, index_along(l, &s->domain, at[a], a), a, near[a]);
+            count[a] = around(l, &s->domain, at[a], s->grains.radius[i] + l->widest + margin, a,
+                              near[a]);
         for (int k = 0; k < count[2]; k++)
             for (int j = 0; j < count[1]; j++)
                 for (int h = 0; h < count[0]; h++) {
