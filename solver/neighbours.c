@@ -14,7 +14,7 @@
 
 #define SKIN_LEAST  0.06 /* of the mean diameter */
 #define SKIN_MOST   0.30
-#define SKIN_STEPS  30.0  /* steps that a skin should last */
+#define SKIN_STEPS  60.0  /* steps that a skin should last */
 #define INNER_STEPS 16.0  /* steps that the thin skin should last */
 #define INNER_LEAST 0.002 /* of the mean diameter: a bed at rest may wake up */
 #define INNER_MOST  0.01  /* of the mean diameter: thicker, it costs more than it saves */
