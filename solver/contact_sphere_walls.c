@@ -327,8 +327,8 @@ void sphere_walls(struct sim *s, int run, struct block *b, const struct target *
         move(s, b, p);
         reduce(b, &p->look);
         shape.overlaps(&s->grains, &b->c, &b->t, &b->l);
-        meet(s, b, p, to->report);
         laws_velocities(b);
+        meet(s, b, p, to->report);
         laws_apply(s, b);
         laws_note_broken(s, b, l, to->time);
         spheres_forget(b, rows, (real)s->neighbours.reach);
