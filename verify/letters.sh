@@ -2,9 +2,9 @@
 # verify/letters.sh [COUNT] - six letters fall into a box that is periodic sideways: solid fraction of each bed,
 # between a fifth and three fifths of its height. The paper's order is O > (T, Z, K) > (A, C) [LiLiuJi23, fig. 12],
 # with 4,000 grains; here COUNT (50) of each. Strokes of 30 x 30 mm, dilated by the paper's 20 mm, close the
-# hole of the O: that is what lets it pack best. With sharper edges (4 mm) the hole stays open, and O packs worst.
-# One filling gave O 0.652, A 0.625, T 0.614, K 0.594, C 0.553, Z 0.543; a second O 0.623, T 0.616: O leads
-# and C trails as in the paper, A and Z do not lie where it has them.
+# hole of the O: that is what lets it pack well. With sharper edges (4 mm) the hole stays open, and O packs worst.
+# Two fillings gave O 0.652 0.623, A 0.625 0.667, T 0.614 0.616, K 0.594 0.596, C 0.553 0.542, Z 0.543 0.556:
+# O before T and K, and C among the last, as in the paper; A and Z do not lie where it has them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 count=${1:-50}
