@@ -205,7 +205,7 @@ static double memory(const struct sim *s)
 {
     const double cells = (double)s->grid.total;
     return 1000.0 * (s->grains.n + insert_expected(s)) +
-           (s->fluid.bare ? 100.0 : 275.0) * cells; /* as measured */
+           (s->fluid.bare ? 100.0 : 250.0) * cells; /* as measured */
 }
 
 void feasibility_fill(const struct sim *s, struct feasibility *f)
