@@ -48,11 +48,12 @@ SPRING_INLINE struct arrow arrow_in_plane(struct arrow a, struct arrow n)
  *
  * With q the share of the square that points out of the plane, the length of the part in the
  * plane is to grow by 1/sqrt(1 - q): its series, bettered by Newton's step, exact to round-off for
- * turns below 1 degree a step and to 1e-6 below 17. One division in all. */
+ * turns below 1 degree a step and to 1e-6 below 17. One division in all; what is so small that its
+ * square has no inverse counts as nothing. */
 SPRING_INLINE struct arrow spring_turn(struct arrow held, struct arrow n, real up, real down)
 {
     const real along = arrow_dot(held, n), before = arrow_dot(held, held);
-    const real all = down * before, inverse = all > 0.0 ? 1.0 / all : 0.0;
+    const real all = down * before, inverse = all > real_least ? 1.0 / all : 0.0;
     const real q = along * along * down * inverse;
     const real y = fma(q, fma(0.375, q, 0.5), 1.0);
     const real grow = y * fma(0.5 * (q - 1.0) * y, y, 1.5);

@@ -109,6 +109,17 @@ static inline void body_write(struct body *b, const struct frame *f,
     __builtin_memcpy(&b->vel, &vel_spin, sizeof vel_spin);
 }
 
+/* Place of i less that of j in one direction, in steps of the frame; in single precision places are
+ * whole numbers that wrap around. */
+static inline real body_along(const struct body *i, const struct body *j, int a)
+{
+#ifdef SILT_FLOAT
+    return (real)(int)((unsigned)i->place[a] - (unsigned)j->place[a]);
+#else
+    return i->place[a] - j->place[a];
+#endif
+}
+
 /* place and full of i less those of j, each with a number of no meaning behind; places in steps
  * of the frame, not yet by the nearest image. */
 static inline real8 body_apart(const struct body *i, const struct body *j)

@@ -154,9 +154,9 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
         for (int k = 0; k < count; k++) {
             const struct body *const i = &bodies[l->owner[from + k]];
             const struct body *const j = &bodies[l->other[from + k]];
-            real x = (real)(i->place[0] - j->place[0]) * f->scale[0];
-            real y = (real)(i->place[1] - j->place[1]) * f->scale[1];
-            real z = (real)(i->place[2] - j->place[2]) * f->scale[2];
+            real x = body_along(i, j, 0) * f->scale[0];
+            real y = body_along(i, j, 1) * f->scale[1];
+            real z = body_along(i, j, 2) * f->scale[2];
             x -= f->image[0] * rint(x * f->inv_image[0]);
             y -= f->image[1] * rint(y * f->inv_image[1]);
             z -= f->image[2] * rint(z * f->inv_image[2]);

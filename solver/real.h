@@ -21,6 +21,13 @@ typedef double real;
 /* Fused multiplication and addition is asked for by name (fma) where it pays, never left to the
  * compiler, so that every build has the same bits. */
 
+/* The least number that has an inverse, with room. */
+#ifdef SILT_FLOAT
+#define real_least 1e-37F
+#else
+#define real_least 1e-300
+#endif
+
 /* 1/sqrt(x), x >= 0, to the last places: half of the exponent by shifting the number as an integer
  * [Lomont03], then a polynomial in what is wrong with that guess (7 %), and in double a step of
  * third order: a root and a division take several times as long. 0 counts as 1e-36:
