@@ -327,7 +327,7 @@ static struct shape_part *parts(int species, double spacing, int *n)
 static double crosswise(int species, vec3 flow)
 {
     const struct form *const f = &forms[species];
-    const vec3 e = wall_across(flow), g = v3_cross(flow, e);
+    const vec3 e = v3_across(flow), g = v3_cross(flow, e);
     struct disc *const d = xalloc((size_t)f->n, sizeof *d);
     for (int k = 0; k < f->n; k++) {
         const vec3 c = f->ball[k].centre;

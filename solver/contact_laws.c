@@ -118,8 +118,8 @@ double laws_energy(struct block *b, double reach, const real *share)
     return sum;
 }
 
-/* Forces and torques into rows: force and torque on i; torque on j. */
-static inline __attribute__((always_inline)) void pack(struct block *b, bool couples)
+/* Forces and torques into rows: force and torque on i; if `both`, on j. */
+static inline __attribute__((always_inline)) void pack(struct block *b, bool couples, bool both)
 {
     const struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
@@ -130,7 +130,6 @@ static inline __attribute__((always_inline)) void pack(struct block *b, bool cou
                     my = couples ? take8(&t->my[c]) : zero;
         const real8 mz = couples ? take8(&t->mz[c]) : zero;
         const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
-        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
         real8 i[8] = {fx,
                       fy,
                       fz,
@@ -139,6 +138,12 @@ static inline __attribute__((always_inline)) void pack(struct block *b, bool cou
                       iz * fx - ix * fz + my,
                       ix * fy - iy * fx + mz,
                       zero};
+        turn8(i);
+        for (int k = 0; k < 8; k++)
+            put8(b->on[0][c + k], i[k]);
+        if (!both)
+            continue;
+        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
         real8 j[8] = {-fx,
                       -fy,
                       -fz,
@@ -147,21 +152,18 @@ static inline __attribute__((always_inline)) void pack(struct block *b, bool cou
                       jx * fz - jz * fx - my,
                       jy * fx - jx * fy - mz,
                       zero};
-        turn8(i);
         turn8(j);
-        for (int k = 0; k < 8; k++) {
-            put8(b->on[0][c + k], i[k]);
+        for (int k = 0; k < 8; k++)
             put8(b->on[1][c + k], j[k]);
-        }
     }
 }
 
 void laws_pack(struct block *b)
 {
     if (needs() & TOUCH_COUPLES)
-        pack(b, true);
+        pack(b, true, true);
     else
-        pack(b, false);
+        pack(b, false, true);
 }
 
 /* The levers are -arm_i and arm_j times the normal: one product gives both torques. */
@@ -199,28 +201,10 @@ void laws_pack_line(struct block *b)
 
 void laws_pack_i(struct block *b)
 {
-    const struct touch *const t = &b->t;
-    const struct levers *const l = &b->l;
-    const bool couples = needs() & TOUCH_COUPLES;
-    const real8 zero = {0.0};
-    for (int c = 0; c < t->n; c += 8) {
-        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
-        const real8 mx = couples ? take8(&t->mx[c]) : zero,
-                    my = couples ? take8(&t->my[c]) : zero;
-        const real8 mz = couples ? take8(&t->mz[c]) : zero;
-        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
-        real8 i[8] = {fx,
-                      fy,
-                      fz,
-                      zero,
-                      iy * fz - iz * fy + mx,
-                      iz * fx - ix * fz + my,
-                      ix * fy - iy * fx + mz,
-                      zero};
-        turn8(i);
-        for (int k = 0; k < 8; k++)
-            put8(b->on[0][c + k], i[k]);
-    }
+    if (needs() & TOUCH_COUPLES)
+        pack(b, true, false);
+    else
+        pack(b, false, false);
 }
 
 void laws_couples(const struct block *b, double8 torque[3])

@@ -284,61 +284,6 @@ void points_work(struct sim *s, struct block *b, const struct target *to)
     b->n = 0;
 }
 
-/* Which record each of n points goes on with; -1 for none. Of points that share a stiffness several may
- * go on with the memory of one that has ended: then a new record starts as a copy of it, `like`. */
-static void match(const struct cut *cut, real *memory, const struct shape_point *p,
-                  const vec3 *place, int n, double close, int *record, int *like)
-{
-    const int used = points_used(cut, memory);
-    bool taken[POINTS_MOST], ended[POINTS_MOST];
-    memset(taken, 0, (size_t)used);
-    for (int k = 0; k < n; k++) {
-        record[k] = -1;
-        for (int r = 0; r < used && record[k] < 0; r++)
-            if (record_id(points_record(cut, memory, r)) == p[k].id)
-                record[k] = r;
-        if (record[k] >= 0)
-            taken[record[k]] = true;
-    }
-    for (int r = 0; r < used; r++)
-        ended[r] = !taken[r];
-    for (int k = 0; k < n; k++) {
-        double nearest = close * close;
-        int best = -1;
-        like[k] = -1;
-        if (record[k] >= 0)
-            continue;
-        for (int r = 0; r < used; r++) {
-            const real *const at = points_record(cut, memory, r);
-            const vec3 d = v3_sub(place[k], v3((double)at[1], (double)at[2], (double)at[3]));
-            const bool busy = taken[r] && !(ended[r] && p[k].share > 0.0 && p[k].share < 1.0);
-            if (busy || at[0] == (real)0.0 || v3_dot(d, d) >= nearest)
-                continue;
-            nearest = v3_dot(d, d);
-            best = r;
-        }
-        if (best >= 0 && taken[best])
-            like[k] = best;
-        else if (best >= 0)
-            record[k] = best;
-        if (best >= 0)
-            taken[best] = true;
-    }
-    for (int r = 0; r < used; r++) { /* contacts that ended */
-        real *const at = points_record(cut, memory, r);
-        if (!taken[r] && at[0] != (real)0.0)
-            memset(at, 0, (size_t)(RECORD_HEAD + cut->rows) * sizeof *at);
-    }
-}
-
-/* A free record; there is one, as n <= most. */
-static int free_record(const struct cut *cut, real *memory, int from)
-{
-    while (points_record(cut, memory, from)[0] != (real)0.0)
-        from++;
-    return from;
-}
-
 /* Finds the memory of a slot's points and enters them. */
 static void enter_points(struct sim *s, struct block *b, const struct cut *cut, int slot,
                          const struct shape_pair *pair, const struct shape_point *p, int n,
@@ -347,20 +292,14 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
     struct slots *const l = &s->neighbours.pairs;
     real *const memory = &l->memory[(size_t)slot * s->neighbours.rows];
     vec3 place[POINTS_MOST];
-    int record[POINTS_MOST], like[POINTS_MOST];
-    int next = 0, used = 0;
+    int record[POINTS_MOST];
     bool overlaps = false;
     for (int k = 0; k < n; k++)
         place[k] = mat3_back(&pair->i.turn, p[k].at_i);
-    match(cut, memory, p, place, n, CLOSE * fmin(pair->i.size, pair->j.size), record, like);
+    const int used = points_match(cut, memory, p, place, n,
+                                  CLOSE * fmin(pair->i.size, pair->j.size), record);
     for (int k = 0; k < n; k++) {
-        const bool new = record[k]<0, over = p[k].depth> 0.0;
-        if (new)
-            record[k] = next = free_record(cut, memory, next);
-        if (new &&like[k] >= 0)
-            memcpy(points_record(cut, memory, record[k]), points_record(cut, memory, like[k]),
-                   (size_t)(RECORD_HEAD + cut->rows) * sizeof *memory);
-        used = record[k] >= used ? record[k] + 1 : used;
+        const bool over = p[k].depth > 0.0;
         real *const at = points_record(cut, memory, record[k]);
         const struct point_of o = {.slot = slot,
                                    .i = l->owner[slot],

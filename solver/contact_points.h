@@ -15,6 +15,7 @@
 #include "sim.h"
 
 enum { SLOT_HEAD = 4, RECORD_HEAD = 4, POINTS_MOST = 256 };
+#define RECORD_NEW (real)2.0 /* a code: in use, did not overlap */
 
 /* How the memory of slots is cut. */
 struct cut {
@@ -64,6 +65,12 @@ struct shape_pose points_pose(const struct sim *s, int i);
 
 /* What pairs and walls write alike: geometry, memory, masses, the spin of i. Returns its lane. */
 int points_enter(const struct sim *s, struct block *b, const struct point_of *o);
+
+/* Gives each of n points of a pair its record: that of its id, else of a contact that has just ended nearer
+ * than `close` (m) to its `place`, else a free one; clears those that ended. Returns up to where records
+ * are in use. */
+int points_match(const struct cut *cut, real *memory, const struct shape_point *p,
+                 const vec3 *place, int n, double close, int *record);
 
 /* Works what is in the block, and empties it. */
 void points_work(struct sim *s, struct block *b, const struct target *to);

@@ -23,6 +23,12 @@ struct meeting {
     bool new;
 };
 
+/* What a part of the body meets of one flat element. */
+struct flat_meeting {
+    int points;
+    struct shape_point p[4];
+};
+
 /* The meetings of a grain. */
 struct meetings {
     int n, room;
@@ -30,6 +36,8 @@ struct meetings {
     int facings; /* room of the buffers */
     struct facing *seen;
     double *radius;
+    struct flat_meeting *met;
+    bool *flat;
     size_t taken_room;
     real *taken;
 };
@@ -46,6 +54,18 @@ static void grow(struct meetings *all)
     const int more = 2 * all->room + 32;
     all->m = xrealloc(all->m, (size_t)all->room, (size_t)more, sizeof *all->m);
     all->room = more;
+}
+
+static void grow_facings(struct meetings *all, int room)
+{
+    void *const old[] = {all->seen, all->radius, all->met, all->flat};
+    for (size_t k = 0; k < sizeof old / sizeof old[0]; k++)
+        xfree(old[k]);
+    all->facings = room;
+    all->seen = xalloc(2 * (size_t)room, sizeof *all->seen);
+    all->radius = xalloc((size_t)room, sizeof *all->radius);
+    all->met = xalloc((size_t)room, sizeof *all->met);
+    all->flat = xalloc((size_t)room, sizeof *all->flat);
 }
 
 /* m; run.overlap_max is of the radius of curvature, but a ball may not go through the wall. */
@@ -165,12 +185,6 @@ static bool facet_of(const struct sim *s, const struct around *a, const struct f
     return true;
 }
 
-/* What a part of the body meets of flat elements; points[k] of them are p[k]. */
-struct flat_meeting {
-    int points;
-    struct shape_point p[4];
-};
-
 /* The flat elements; those that are none, or are met beside the end of a curved edge, are left in
  * `seen`; returns how many. */
 static int meet_flat(const struct sim *s, struct meetings *all, const struct around *a,
@@ -179,8 +193,8 @@ static int meet_flat(const struct sim *s, struct meetings *all, const struct aro
     const vec3 x = s->grains.pos[a->i];
     const double reach = s->neighbours.reach;
     const int parts = shape.convex_parts(a->pose.species);
-    struct flat_meeting *const met = xalloc((size_t)a->n + 1, sizeof *met);
-    bool *const flat = xalloc((size_t)a->n + 1, sizeof *flat);
+    struct flat_meeting *const met = all->met;
+    bool *const flat = all->flat;
     int left = 0;
     for (int k = 0; k < a->n; k++)
         flat[k] = true;
@@ -215,8 +229,6 @@ static int meet_flat(const struct sim *s, struct meetings *all, const struct aro
     for (int k = 0; k < a->n; k++)
         if (!flat[k])
             seen[left++] = seen[k];
-    xfree(met);
-    xfree(flat);
     return left;
 }
 
@@ -315,7 +327,7 @@ static void remember(struct sim *s, const struct cut *cut, struct meetings *all,
         if (taken[(size_t)k * size] != (real)0.0)
             memcpy(m->record, &taken[(size_t)k * size], size * sizeof *taken);
         else
-            m->record[0] = (real)2.0; /* in use, did not overlap */
+            m->record[0] = RECORD_NEW;
     }
 }
 
@@ -371,13 +383,8 @@ static void work_grain(struct sim *s, struct block *b, const struct cut *cut, st
                        struct meetings *all, const struct target *to)
 {
     struct slots *const l = &s->neighbours.walls;
-    if (a->n > all->facings) {
-        all->facings = 2 * a->n;
-        xfree(all->seen);
-        xfree(all->radius);
-        all->seen = xalloc(2 * (size_t)all->facings, sizeof *all->seen);
-        all->radius = xalloc((size_t)all->facings, sizeof *all->radius);
-    }
+    if (a->n > all->facings)
+        grow_facings(all, 2 * a->n);
     struct facing *const seen = all->seen;
     int near = 0, live = 0;
     const vec3 x = s->grains.pos[a->i];
@@ -434,7 +441,7 @@ void points_walls(struct sim *s, int run, struct block *b, const struct target *
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;
-    void *const buffers[] = {all.m, all.seen, all.radius, all.taken};
+    void *const buffers[] = {all.m, all.seen, all.radius, all.met, all.flat, all.taken};
     for (size_t k = 0; k < sizeof buffers / sizeof buffers[0]; k++)
         xfree(buffers[k]);
 }

@@ -49,4 +49,12 @@ static inline double v3_norm(vec3 a)
     return sqrt(v3_dot(a, a));
 }
 
+/* A unit vector across a, which has about the length 1, always the same. */
+static inline vec3 v3_across(vec3 a)
+{
+    const vec3 other = fabs(a.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
+    const vec3 e = v3_cross(a, other);
+    return v3_scale(1.0 / v3_norm(e), e);
+}
+
 #endif

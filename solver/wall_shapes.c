@@ -28,13 +28,6 @@ vec3 wall_unit_vector(struct scene *scene, const char *name, const char *key)
     return v3(0.0, 0.0, 1.0);
 }
 
-vec3 wall_across(vec3 axis)
-{
-    const vec3 other = fabs(axis.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
-    const vec3 v = v3_cross(axis, other);
-    return v3_scale(1.0 / v3_norm(v), v);
-}
-
 int wall_single(const void *shape)
 {
     (void)shape;
@@ -130,7 +123,7 @@ void wall_flat_draw(const void *shape, struct wall_canvas *c)
     const vec3 middle = v3_scale(0.5, v3_add(c->low, c->high));
     const double wide = 2.0 * v3_norm(v3_sub(c->high, c->low));
     const vec3 foot = v3_axpy(middle, -height(f, middle), f->normal);
-    const vec3 e = v3_scale(wide, wall_across(f->normal)), g = v3_cross(f->normal, e);
+    const vec3 e = v3_scale(wide, v3_across(f->normal)), g = v3_cross(f->normal, e);
     vec3 p[12] = {v3_add(foot, e), v3_add(foot, g), v3_sub(foot, e), v3_sub(foot, g)};
     int n = 4;
     const double low[3] = {c->low.x, c->low.y, c->low.z};
@@ -207,7 +200,7 @@ void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view
     const double h = v3_dot(rel, s->axis);
     const vec3 radial = v3_axpy(rel, -h, s->axis);
     const double r = v3_norm(radial);
-    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : v3_across(s->axis);
     const double dh = s->h1 - s->h0, dr = s->r1 - s->r0;
     const double t = ((h - s->h0) * dh + (r - s->r0) * dr) / (dh * dh + dr * dr);
     const double at = clamped(t), up = h - (s->h0 + at * dh);
@@ -226,7 +219,7 @@ void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view
 
 void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l)
 {
-    const vec3 foot = strip->foot, axis = strip->axis, across = wall_across(axis);
+    const vec3 foot = strip->foot, axis = strip->axis, across = v3_across(axis);
 #pragma omp simd
     for (int c = 0; c < l->n; c++) {
         const struct wall_strip *const s = &strip[l->element[c]];
@@ -255,7 +248,7 @@ enum { AROUND = 96 };
 
 static vec3 ring(const struct wall_strip *s, double h, double r, int k)
 {
-    const vec3 e = wall_across(s->axis), f = v3_cross(s->axis, e);
+    const vec3 e = v3_across(s->axis), f = v3_cross(s->axis, e);
     const double angle = 2.0 * PI * (k % AROUND) / AROUND;
     const vec3 centre = v3_axpy(s->foot, h, s->axis);
     return v3_axpy(v3_axpy(centre, r * cos(angle), e), r * sin(angle), f);
@@ -364,7 +357,7 @@ void wall_tube_view(const void *shape, int element, const vec3 *x, struct wall_v
     const vec3 rel = v3(x->x - s->foot.x, x->y - s->foot.y, x->z - s->foot.z);
     const vec3 radial = v3_axpy(rel, -v3_dot(rel, s->axis), s->axis);
     const double r = v3_norm(radial), beyond = r - s->r0;
-    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : wall_across(s->axis);
+    const vec3 outwards = r > 0.0 ? v3_scale(1.0 / r, radial) : v3_across(s->axis);
     wall_view_put(out, v3_scale(beyond, outwards), (beyond > 0.0 ? 1.0 : -1.0) / s->r0,
                   WALL_FACE);
 }
@@ -373,7 +366,7 @@ void wall_tube_views(const void *shape, struct wall_looks *l)
 {
     const struct tube *const t = shape;
     const struct wall_strip *const s = &t->strip[0];
-    const vec3 foot = s->foot, axis = s->axis, across = wall_across(axis);
+    const vec3 foot = s->foot, axis = s->axis, across = v3_across(axis);
     const double radius = s->r0;
     if (!t->endless) {
         wall_strip_views(s, l);

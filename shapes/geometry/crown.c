@@ -2,28 +2,19 @@
 #include "crown.h"
 
 #include <string.h>
+#include "lanes.h"
 
 enum { ROUNDS = 100, LANES = POLYHEDRON_LANES };
 #define STEP  0.5   /* the normal turns by no more at once */
 #define FLAT  1e-13 /* of the size: a gain in height that round-off hides */
 #define TIGHT 1e-14 /* of the size: the points are on one line */
 
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-typedef long long counts __attribute__((vector_size(LANES * sizeof(long long))));
-
-static inline lanes load(const double *x)
-{
-    lanes out;
-    memcpy(&out, x, sizeof out);
-    return out;
-}
-
-/* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, Taylor's series of f. */
+/* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, with log 2 in two parts [CodyWaite80], Taylor's series of f.
+ * Ours, as libm's works one number at a time, and the bits of its vectors change with the machine. */
 static inline lanes exponential(lanes x)
 {
     const lanes low = {-700, -700, -700, -700, -700, -700, -700, -700};
-    const counts deep = x < low;
-    const lanes y = (lanes)(((counts)low & deep) | ((counts)x & ~deep));
+    const lanes y = lanes_greater(low, x);
     const double whole = 6755399441055744.0; /* 1.5 2^52: the sum's last bits are the integer */
     const lanes sum = y * 1.4426950408889634 + whole, k = sum - whole;
     const lanes f = y - k * 0.693147180369123816490 - k * 1.90821492927058770002e-10;
@@ -62,19 +53,20 @@ void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top)
 {
     const struct points *const p = &c->at;
     const vec3 b = v3_scale(c->sharp, along);
-    lanes most = load(c->log_weight) + b.x * load(p->x) + b.y * load(p->y) + b.z * load(p->z);
+    lanes most = lanes_load(c->log_weight) + b.x * lanes_load(p->x) + b.y * lanes_load(p->y) +
+                 b.z * lanes_load(p->z);
     for (int k = LANES; k < p->room; k += LANES) {
-        const lanes h = load(c->log_weight + k) + b.x * load(p->x + k) + b.y * load(p->y + k) +
-                        b.z * load(p->z + k);
-        const counts higher = h > most;
-        most = (lanes)(((counts)h & higher) | ((counts)most & ~higher));
+        const lanes h = lanes_load(c->log_weight + k) + b.x * lanes_load(p->x + k) +
+                        b.y * lanes_load(p->y + k) + b.z * lanes_load(p->z + k);
+        most = lanes_greater(h, most);
     }
     const double high = greatest(most);
     lanes s = {0.0}, sx = s, sy = s, sz = s, xx = s, yy = s, zz = s, xy = s, xz = s, yz = s;
     for (int k = 0; k < p->room; k += LANES) {
-        const lanes x = load(p->x + k), y = load(p->y + k), z = load(p->z + k);
+        const lanes x = lanes_load(p->x + k), y = lanes_load(p->y + k),
+                    z = lanes_load(p->z + k);
         const lanes e =
-            exponential(load(c->log_weight + k) + b.x * x + b.y * y + b.z * z - high);
+            exponential(lanes_load(c->log_weight + k) + b.x * x + b.y * y + b.z * z - high);
         const lanes ex = e * x, ey = e * y, ez = e * z;
         s += e;
         sx += ex;
@@ -133,12 +125,10 @@ static struct flat across(const struct crown_top *t, vec3 e1, vec3 e2)
     return (struct flat){v3_dot(e1, first), v3_dot(e1, second), v3_dot(e2, second)};
 }
 
-static void basis(vec3 n, vec3 *e1, vec3 *e2)
+static void basis(vec3 n, struct crown_gap *out)
 {
-    const vec3 other = fabs(n.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
-    const vec3 e = v3_cross(n, other);
-    *e1 = v3_scale(1.0 / v3_norm(e), e);
-    *e2 = v3_cross(n, *e1);
+    out->e1 = v3_across(n);
+    out->e2 = v3_cross(n, out->e1);
 }
 
 static void set_root(double p11, double p12, double p22, struct crown_gap *out)
@@ -168,7 +158,7 @@ static void set_patch(const struct flat *a, const struct flat *b, double size,
 
 void crown_set_flat(const struct crown_top *top, struct crown_gap *out)
 {
-    basis(out->normal, &out->e1, &out->e2);
+    basis(out->normal, out);
     const struct flat v = across(top, out->e1, out->e2);
     set_root(v.a, v.b, v.c, out);
 }
@@ -230,7 +220,7 @@ bool crown_find_gap(const struct crown *a, const struct crown *b, vec3 line, dou
         }
         if (gain <= FLAT * size && error >= last)
             break;
-        basis(m, &out->e1, &out->e2);
+        basis(m, out);
         va = across(&ta, out->e1, out->e2);
         vb = across(&tb, out->e1, out->e2);
         const struct flat t = {ba * va.a + bb * vb.a, ba * va.b + bb * vb.b,
@@ -243,7 +233,7 @@ bool crown_find_gap(const struct crown *a, const struct crown *b, vec3 line, dou
         gain = v3_dot(q, g);
         m = turned(base, 1.0, q);
     }
-    basis(m, &out->e1, &out->e2);
+    basis(m, out);
     va = across(&ta, out->e1, out->e2);
     vb = across(&tb, out->e1, out->e2);
     set_patch(&va, &vb, size, out);

@@ -197,13 +197,11 @@ static void shadow_triangle(struct shape_canvas *canvas, vec3 a, vec3 b, vec3 p)
 static double raster_shadow(const struct dilated *d, vec3 along)
 {
     struct shadow_canvas *const s = xalloc(1, sizeof *s);
-    const vec3 other = fabs(along.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
     long dark = 0;
     s->canvas.triangle = shadow_triangle;
     s->edge = d->radius;
     s->step = 2.0 * d->radius / RASTER;
-    s->e1 = v3_cross(along, other);
-    s->e1 = v3_scale(1.0 / v3_norm(s->e1), s->e1);
+    s->e1 = v3_across(along);
     s->e2 = v3_cross(along, s->e1);
     dilated_surface(d, &s->canvas);
     for (int j = 0; j < RASTER; j++)

@@ -3,6 +3,7 @@
 #include "distance.h"
 
 #include <string.h>
+#include "lanes.h"
 
 enum { ROUNDS = 64 };
 #define FLAT  1e-10 /* height over length of a tetrahedron that has no inside */
@@ -15,41 +16,25 @@ struct simplex {
     double part[4];
 };
 
-typedef double lanes __attribute__((vector_size(POLYHEDRON_LANES * sizeof(double))));
-typedef long long counts __attribute__((vector_size(POLYHEDRON_LANES * sizeof(long long))));
-
-static inline lanes load(const double *x)
-{
-    lanes out;
-    memcpy(&out, x, sizeof out);
-    return out;
-}
-
-/* The greater of two in each lane. */
-static inline lanes greater(lanes a, lanes b)
-{
-    const counts first = a > b;
-    return (lanes)(((counts)a & first) | ((counts)b & ~first));
-}
-
 /* A lane each looks through every eighth vertex; then the best of the lanes, by halves: each carries
  * its number in its last three bits, which decides between vertices equally high to 1e-15. */
 int points_highest(const struct points *p, vec3 along, double *height)
 {
     const counts number = {0, 1, 2, 3, 4, 5, 6, 7};
     counts best = number;
-    lanes most = along.x * load(p->x) + along.y * load(p->y) + along.z * load(p->z);
+    lanes most =
+        along.x * lanes_load(p->x) + along.y * lanes_load(p->y) + along.z * lanes_load(p->z);
     for (int k = POLYHEDRON_LANES; k < p->room; k += POLYHEDRON_LANES) {
-        const lanes h =
-            along.x * load(p->x + k) + along.y * load(p->y + k) + along.z * load(p->z + k);
+        const lanes h = along.x * lanes_load(p->x + k) + along.y * lanes_load(p->y + k) +
+                        along.z * lanes_load(p->z + k);
         const counts higher = h > most;
-        most = greater(h, most);
+        most = lanes_greater(h, most);
         best = ((number + k) & higher) | (best & ~higher);
     }
     lanes a = (lanes)(((counts)most & ~7LL) | number);
-    a = greater(a, __builtin_shuffle(a, (counts){4, 5, 6, 7, 0, 1, 2, 3}));
-    a = greater(a, __builtin_shuffle(a, (counts){2, 3, 0, 1, 6, 7, 4, 5}));
-    a = greater(a, __builtin_shuffle(a, (counts){1, 0, 3, 2, 5, 4, 7, 6}));
+    a = lanes_greater(a, __builtin_shuffle(a, (counts){4, 5, 6, 7, 0, 1, 2, 3}));
+    a = lanes_greater(a, __builtin_shuffle(a, (counts){2, 3, 0, 1, 6, 7, 4, 5}));
+    a = lanes_greater(a, __builtin_shuffle(a, (counts){1, 0, 3, 2, 5, 4, 7, 6}));
     int k = (int)(((counts)a)[0] & 7);
     if (p->room > POLYHEDRON_LANES) {
         long long index[POLYHEDRON_LANES];

@@ -240,19 +240,10 @@ static void walk(struct corners *c, const double *w)
     c->share[i] += 1.0 - gone;
 }
 
-static void across(vec3 n, vec3 *e1, vec3 *e2)
-{
-    const vec3 other = fabs(n.x) < 0.6 ? v3(1.0, 0.0, 0.0) : v3(0.0, 1.0, 0.0);
-    const vec3 e = v3_cross(n, other);
-    *e1 = v3_scale(1.0 / v3_norm(e), e);
-    *e2 = v3_cross(n, *e1);
-}
-
 static void share_out(struct corners *c, vec3 n, double tilt, double size)
 {
     double w[PATCH_NEAR], least = (double)INFINITY;
-    vec3 e1, e2;
-    across(n, &e1, &e2);
+    const vec3 e1 = v3_across(n), e2 = v3_cross(n, e1);
     for (int k = 0; k < c->n; k++) {
         c->u[k] = v3_dot(e1, c->on_b[k]);
         c->v[k] = v3_dot(e2, c->on_b[k]);

@@ -100,7 +100,6 @@ extern const struct wall_kind wall_side; /* a side of the box: a plane; not to b
 vec3 wall_unit_vector(struct scene *scene, const char *name, const char *key);
 
 /* A sphere touching a ring, a segment, a disc: helpers of the kinds. */
-vec3 wall_across(vec3 axis); /* some unit vector at right angles to the axis */
 
 /* A plane without end; grains are on the side of its normal. */
 struct wall_flat {
