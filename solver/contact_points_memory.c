@@ -60,7 +60,8 @@ static int free_record(const struct cut *cut, real *memory, int from)
 
 /* Gives new points their records, before any record goes on to this step: a copy is of the last one. Returns
  * up to where records are in use. */
-static int start_records(const struct cut *cut, real *memory, int n, int *record, const int *like)
+static int start_records(const struct cut *cut, real *memory, int n, int *record,
+                         const int *like)
 {
     int next = 0, used = 0;
     for (int k = 0; k < n; k++) {

@@ -4,9 +4,9 @@
 #   epsd             comes to rest: the height stays (0.5 % in the last 1.5 s) and is the highest
 #   constant_torque  creeps: the height falls, and lies between the two
 #   viscous          comes to rest at the height of no rolling resistance, the lowest
-# Each height must lie within 10 % of the paper's at the same time after the gate opened. (The paper gives
-# no scatter, no restitution and no steps; 5 % was meant first. Measured: epsd -7.2 % (seed 2: -9.6 %), constant_torque
-# -5.5 %, which begins at the paper's height but creeps faster, viscous +0.3 %.) Two or three minutes
+# Each height must lie within 5 % of the paper's at the same time after the gate opened. (The paper gives
+# no scatter, no restitution and no steps. Two of ours fail: epsd -7.2 % (seed 2: -9.6 %), constant_torque
+# -5.5 %, which begins at the paper's height but creeps faster; viscous +0.3 %.) Two or three minutes
 # each on a quiet core.
 #   verify/sandpile.sh [MODEL ...]     of constant_torque viscous epsd
 set -uo pipefail
@@ -115,7 +115,7 @@ for model; do
             NR == 1 { first = $1 } { last = $1 }
             END { off = last / want - 1; drift = last / first - 1
                   rests = drift < 0.005 && drift > -0.005
-                  good = off < 0.1 && off > -0.1 && (model == "constant_torque" ? drift < -0.005 : rests)
+                  good = off < 0.05 && off > -0.05 && (model == "constant_torque" ? drift < -0.005 : rests)
                   printf "  %-16s height %.4f m, published %.4f m, %+.1f %%; angle %.1f degrees; in the last 1.5 s %+.2f %%: %s\n",
                       model, last, want, 100 * off, angle, 100 * drift, good ? "pass" : "FAIL"
                   print model, last > "'"$tmp"'/height." model

@@ -3,9 +3,8 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979323846
-#define TILT                                                                                   \
-    0.1 /* patch.h: a few degrees, far above what contacts bend by, far below a right angle */
+#define PI   3.14159265358979323846
+#define TILT 0.1 /* patch.h, for the envelope where cores overlap: a few degrees */
 
 enum { FORM_MESH_CONVEX = 8, FORM_MESH_ALL = 19, POINTS_ONE = 16 };
 
