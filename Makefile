@@ -59,7 +59,8 @@ LIB := $(BUILD)/libsilt.a
 WALL_KINDS := $(patsubst solver/walls/%.c,%,$(wildcard solver/walls/*.c))
 LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(filter-out solver/main.c,$(wildcard solver/*.c)) \
              $(wildcard shapes/geometry/*.c)) \
-           $(WALL_KINDS:%=$(BUILD)/obj/solver/walls/%.o) $(BUILD)/obj/lists/walls.o
+           $(WALL_KINDS:%=$(BUILD)/obj/solver/walls/%.o) \
+           $(BUILD)/obj/lists/walls.o $(BUILD)/obj/lists/keys.o
 BIN := $(BUILD)/bin/$(NAME)/silt
 STUDY := $(BUILD)/libstudy.a
 ALL_ANSWERS := $(foreach d,$(SLOT_DIRS) forces,$(wildcard $(d)/*.c))
@@ -89,6 +90,14 @@ $(BUILD)/lists/walls.c: FORCE
 	   echo 'const struct wall_kind *const wall_kinds[] = {'; \
 	   for w in $(WALL_KINDS); do echo "    &wall_$$w,"; done; \
 	   echo '    0};'; } > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+# Which answer has which key. The name of a slot is that of its folder, but of shapes/ without s; kinds of
+# walls likewise.
+$(BUILD)/lists/keys.c: FORCE
+	@mkdir -p $(@D)
+	@awk -f tools/keys.awk $(wildcard solver/*.h contact/*/*.h shapes/geometry/*.h) \
+	   $(foreach d,$(SLOT_DIRS) forces,SLOT=$(patsubst shapes,shape,$(notdir $(d))) $(wildcard $(d)/*.c)) \
+	   SLOT=wall.kind $(wildcard solver/walls/*.c) > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/obj/lists/%.o: $(BUILD)/lists/%.c
 	@mkdir -p $(@D)

@@ -8,10 +8,11 @@
  *
  * Errors are collected, never fatal at once: a value that is missing or wrong reads as its
  * default (or 0, or "") and is on the list. scene_finish reports the keys and sections that no
- * table knows, with the nearest known key; if anything is on the list it prints all of it on
- * stderr, one line each as
+ * table knows, with the answers that have it or the nearest known key; if anything is on the list
+ * it prints all of it on stderr, one line each as
  *     scenes/a.ini:12: grains.restitution = 1.3: must lie in (0, 1]
  *     command line: fluid.densty = 1000: no such key (did you mean fluid.density?)
+ *     command line: drag.mobility = on: no such key here; it belongs to drag = tang
  * and exits with EXIT_SCENE. Nothing may be written before scene_finish has returned.
  *
  * Not thread safe; used only before the run. */

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include "keys_elsewhere.h"
 
 enum { ERRORS_SHOWN = 50 };
 
@@ -75,6 +76,30 @@ static bool section_known(const struct scene *s, const char *section, struct nea
     return false;
 }
 
+/* The answers that have the key (NULL: any key of the section), "contact = hertz, linear; rolling =
+ * jiang"; empty if none has it. Free with xfree. */
+static char *others_with(const char *section, const char *key)
+{
+    const size_t length = first_word(section);
+    const struct elsewhere *last = NULL;
+    char *text = xstrdup("");
+    for (const struct elsewhere *e = keys_elsewhere; e->section; e++) {
+        if (strlen(e->section) != length || strncmp(e->section, section, length) != 0 ||
+            (key && strcmp(e->key, key) != 0))
+            continue;
+        const bool same_slot = last && strcmp(last->slot, e->slot) == 0;
+        if (same_slot && strcmp(last->answer, e->answer) == 0)
+            continue;
+        char *const longer =
+            same_slot ? xprintf("%s, %s", text, e->answer)
+                      : xprintf("%s%s%s = %s", text, last ? "; " : "", e->slot, e->answer);
+        xfree(text);
+        text = longer;
+        last = e;
+    }
+    return text;
+}
+
 static void check_section(struct scene *s, const char *section, int line)
 {
     char *const where = scene_where(s, line);
@@ -82,7 +107,12 @@ static void check_section(struct scene *s, const char *section, int line)
     char hint[128];
     struct nearest n = nearest_start(word);
     char *text = NULL;
-    if (!section_known(s, section, &n))
+    char *const others = others_with(section, NULL);
+    const bool known = section_known(s, section, &n);
+    if (!known && others[0])
+        text =
+            xprintf("%s[%s]: no such section here; it belongs to %s", where, section, others);
+    else if (!known)
         text = xprintf("%s[%s]: no such section%s", where, section,
                        nearest_hint(&n, hint, sizeof hint));
     else if (is_named(s, section) && !strchr(section, ' '))
@@ -94,6 +124,7 @@ static void check_section(struct scene *s, const char *section, int line)
         scene_add_error(s, line, text);
     xfree(where);
     xfree(word);
+    xfree(others);
 }
 
 /* A key that no table of its section knows. */
@@ -112,18 +143,21 @@ static void check_key(struct scene *s, const struct entry *e)
                 return;
             nearest_offer(&n, k->name);
         }
-    if (!any)
-        return; /* the section itself is unknown, and said so */
-    if (n.best[0]) {
-        char full[96];
-        snprintf(full, sizeof full, "%.40s.%.48s", e->section, n.best);
-        snprintf(n.best, sizeof n.best, "%s", full);
+    char *const others = others_with(e->section, e->key);
+    if (any || others[0]) { /* else the section itself is unknown, and said so */
+        if (n.best[0]) {
+            char full[96];
+            snprintf(full, sizeof full, "%.40s.%.48s", e->section, n.best);
+            snprintf(n.best, sizeof n.best, "%s", full);
+        }
+        char *const where = scene_where(s, e->line);
+        scene_add_error(s, e->line,
+                        xprintf("%s%s.%s = %s: no such key%s%s", where, e->section, e->key,
+                                e->value, others[0] ? " here; it belongs to " : "",
+                                others[0] ? others : nearest_hint(&n, hint, sizeof hint)));
+        xfree(where);
     }
-    char *const where = scene_where(s, e->line);
-    scene_add_error(s, e->line,
-                    xprintf("%s%s.%s = %s: no such key%s", where, e->section, e->key, e->value,
-                            nearest_hint(&n, hint, sizeof hint)));
-    xfree(where);
+    xfree(others);
 }
 
 /* With all else sound, a key that nothing has read is a mistake too: the scene does not mean

@@ -180,7 +180,10 @@ grep -q "$bad:25: fluid.viscosity = 1 kg" "$tmp/err"
 verdict $? "several errors at once, second"
 edit "reciprocal of the unit" 's/1 mPa s/1 1\/(mPa s)/' "$bad:25: fluid.viscosity = 1 1/\(mPa s\): .*has the wrong dimension"
 edit "hexadecimal" 's/^count    = 50/count = 0x32/' "$bad:17: grains beads.count = 0x32: must be one whole number"
-edit "poisson of another law" '/^friction/a poisson = 0.6' "$bad:23: material beads.poisson = 0.6: no such key"
+edit "poisson of another law" '/^friction/a poisson = 0.6' "$bad:23: material beads.poisson = 0.6: no such key here; it belongs to contact = hertz, hertz_mindlin, hertz_mindlin_liu; cohesion = jkr$"
+edit "rolling friction without rolling" '/^friction/a rolling_friction = 0.1' "$bad:23: material beads.rolling_friction = 0.1: no such key here; it belongs to rolling = constant_torque, epsd, matter$"
+edit "a section of a law that is not chosen" '/^\[flow\]/i [rolling]\ndamping = 0.3' "$bad:27: \[rolling\]: no such section here; it belongs to rolling = constant_torque, epsd, jiang, matter$"
+edit "a key of another kind of wall" '/^\[flow\]/i [wall post]\nkind = plane\npoint = 1 1 1 mm\nhole = 1 mm' "wall post.hole = 1 mm: no such key here; it belongs to wall.kind = disc$"
 edit "two regions out of order" '/^count/a from = 0 0 15 mm\nto = 10 10 5 mm' "grains beads.to = 10 10 5 mm: the region must lie inside the box"
 edit "a bare carriage return" "s/^count    = 50/count = 50\rfrozen = yes/" "$bad:17: the file is not text"
 edit "a line without end" "s/^count    = 50/count = 5$(printf '0%.0s' {1..300})/" "$bad:17: .*the line is longer than 180 letters"
@@ -196,7 +199,7 @@ whole "force that does not exist" "modules.forces = saffman, safman: safman is n
 whole "force by a path" "modules.forces = ../drag/ergun: ../drag/ergun is none of: brownian" "$tmp/good.ini" modules.forces=../drag/ergun
 whole "force taken away that does not exist" "modules.forces = -bouyancy: bouyancy is none of: brownian" "$tmp/good.ini" modules.forces=-bouyancy
 whole "force without a fluid" "modules.forces = saffman: there is no fluid to exert them" scenes/bounce.ini modules.forces=saffman
-whole "key of a force that is not asked for" "forces\\.saffman|\\[forces\\]: no such section" "$tmp/good.ini" forces.saffman=mei
+whole "key of a force that is not asked for" "forces.saffman = mei: no such key here; it belongs to forces = saffman$" "$tmp/good.ini" forces.saffman=mei
 whole "slot that does not exist" "modules.drug = ergun: no such key \(did you mean modules.drag\?\)" "$tmp/good.ini" modules.drug=ergun
 whole "no such scene" "nosuch.ini: No such file" nosuch.ini
 : > "$tmp/empty.ini"

@@ -57,6 +57,17 @@ for source in forces/*.c; do
     check $? "forces/$name exports force_$name alone"
 done
 
+# What a binary says of keys that it lacks is read from the sources: it must be what the answers say.
+make -s build/release/front
+said=$(build/release/front keys | sed -n '/^with a fluid/,$p' | awk '
+    /^[a-z]+ = / { owner = $1 " " $3 } /^$/ { next } /^[a-z]/ && !/ = / { owner = "" }
+    /^  / && owner { print owner, $1 }' | sort)
+read_there=$(sed -n 's/^    {"\(.*\)", "\(.*\)", "\(.*\)", "\(.*\)"},$/\3 \4 \1.\2/p' build/release/lists/keys.c |
+    grep -v '^wall\.kind' | sort)
+difference=$(diff <(echo "$said") <(echo "$read_there") | grep '^[<>]' | tr '\n' ' ')
+[ -n "$said" ] && [ -z "$difference" ]
+check $? "$(wc -l <<< "$said") keys of answers are found in their sources${difference:+: $difference}"
+
 name=zz_throwaway_$$
 remove() {
     rm -rf "drag/$name.c" build/release/obj/drag/"$name".* build/release/answers/drag/"$name".so \
