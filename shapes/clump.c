@@ -338,7 +338,7 @@ static double crosswise(int species, vec3 flow)
     return 3.14159265358979323846 / area;
 }
 
-const struct shape shape = {.path = &contact_points,
+const struct shape shape = {.path = &contact_members,
                             .init = init,
                             .free = release,
                             .points = points,

@@ -16,6 +16,9 @@
  *                    orientation (spheres, discs);
  *   contact_points   `points` gives 0 to `most` points of contact for a pair; all of them go through
  *                    the same laws. The grains have an orientation and a full inertia.
+ *   contact_members  the body is a union of `balls`: each ball of one against each of the other, in the blocks
+ *                    of spheres. `points` tells which come near; its id is ball of i times balls of j +
+ *                    ball of j. As many overlaps as there are count; a pair of balls has its own memory.
  * Only the path that the shape names is linked.
  *
  * All functions but init and free are called from parallel loops: parameters are written in init
@@ -31,7 +34,7 @@
 
 struct wall;
 struct contact_path;
-extern const struct contact_path contact_spheres, contact_points;
+extern const struct contact_path contact_spheres, contact_points, contact_members;
 
 /* ---- contact_spheres ---- */
 

@@ -24,7 +24,7 @@ static void take(struct block *b, struct pack_block *p, int count, const int *sl
 }
 
 /* Distances, not yet by the nearest image, and motion of the centres, i less j. */
-static void gather(const struct sim *s, struct block *b)
+void spheres_gather(const struct sim *s, struct block *b)
 {
     struct touch *const t = &b->t;
     for (int c = 0; c < t->n; c += 8) {
@@ -57,7 +57,7 @@ static void gather(const struct sim *s, struct block *b)
 }
 
 /* What is the same for every block of a run. */
-static void open_pairs(const struct sim *s, struct block *b, const struct target *to)
+void spheres_open(const struct sim *s, struct block *b, const struct target *to)
 {
     b->walls = false;
     b->t.dt = s->run.dt;
@@ -67,7 +67,7 @@ static void open_pairs(const struct sim *s, struct block *b, const struct target
         b->c.wall[c] = NULL;
 }
 
-static void pair_materials(const struct sim *s, struct block *b)
+void spheres_materials(const struct sim *s, struct block *b)
 {
     if (s->grains.n_materials > 1)
         for (int c = 0; c < b->t.n; c++)
@@ -76,7 +76,7 @@ static void pair_materials(const struct sim *s, struct block *b)
 }
 
 /* The nearest image of the distances. */
-static void nearest(const struct sim *s, struct block *b)
+void spheres_nearest(const struct sim *s, struct block *b)
 {
     const struct frame *const f = &s->frame;
     const real sx = f->scale[0], sy = f->scale[1], sz = f->scale[2];
@@ -102,7 +102,7 @@ void spheres_starts(struct touch *t, const real *began)
 /* Two spheres [shapes/sphere.c], their reduced mass and radius, their velocities at the contact point:
  * the levers lie along the normal, so one product serves both spins. Notes the overlaps for the
  * next step. */
-static void meet(const struct sim *s, struct block *b, real *restrict before, struct report *r)
+void spheres_meet(const struct sim *s, struct block *b, real *restrict before, struct report *r)
 {
     struct touch *const t = &b->t;
     const real most = (real)s->run.overlap_max;
@@ -171,9 +171,9 @@ void spheres_report(const struct sim *s, struct block *b, struct slots *l, struc
     }
 }
 
-/* Adds the forces to the sums: in strides, since neighbouring contacts mostly have one owner, and
- * an addition to what was just added to must wait for it. */
-static void add(const struct block *b, const int *restrict to, const struct target *target)
+/* In strides, since neighbouring contacts mostly have one owner, and an addition to what was just added
+ * to must wait for it. */
+void spheres_add(const struct block *b, const int *restrict to, const struct target *target)
 {
     enum { STRIDE = 8 };
     struct sums *const own = target->sums - target->first, *const all = target->sums;
@@ -211,14 +211,14 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     struct slots *const l = &s->neighbours.pairs;
     const struct pack *const pack = &s->contacts->pack[to->first / RUN];
     const int rows = s->neighbours.rows;
-    open_pairs(s, b, to);
+    spheres_open(s, b, to);
     for (int from = 0; from < count; from += TOUCH) {
         struct pack_block *const p = pack_block(pack, from / TOUCH, rows);
         take(b, p, count - from < TOUCH ? count - from : TOUCH, slot + from, to->asked);
-        gather(s, b);
-        nearest(s, b);
-        pair_materials(s, b);
-        meet(s, b, p->depth, to->report);
+        spheres_gather(s, b);
+        spheres_nearest(s, b);
+        spheres_materials(s, b);
+        spheres_meet(s, b, p->depth, to->report);
         laws_apply(s, b);
         if (bond_history > 0) {
             levers_pairs(b);
@@ -226,7 +226,7 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
         }
         spheres_forget(b, rows, (real)s->neighbours.reach);
         laws_pack_line(b);
-        add(b, p->to, to);
+        spheres_add(b, p->to, to);
         if (to->asked)
             spheres_report(s, b, l, to->report);
         if (s->grains.n_frozen > 0)

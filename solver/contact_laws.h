@@ -34,6 +34,8 @@ void laws_note_broken(struct sim *s, const struct block *b, const struct slots *
 void laws_pack(struct block *b);
 /* The same where the contact point lies on the line of centres: from b->arm_i, arm_j. */
 void laws_pack_line(struct block *b);
+/* Between members of grains: likewise, with the offsets of the members from the grains' centres in b->l. */
+void laws_pack_members(struct block *b);
 /* Those on i alone: against walls. */
 void laws_pack_i(struct block *b);
 /* Adds the laws' couples to the torque, where there are any. */

@@ -37,12 +37,16 @@ void contact_create(struct sim *s, struct scene *scene)
     bond_init(scene, &materials);
     xfree(names);
     s->contacts = xalloc(1, sizeof *s->contacts);
+    if (shape.path->create)
+        shape.path->create(s);
 }
 
 void contact_free(struct sim *s)
 {
     if (!s->contacts)
         return;
+    if (shape.path->free)
+        shape.path->free(s);
     xfree(s->contacts->sums);
     for (int run = 0; run < s->contacts->runs; run++) {
         xfree(s->contacts->pack[run].data);
@@ -118,6 +122,8 @@ void contact_prepare(struct sim *s)
         w->sums = xalloc(w->capacity, sizeof *w->sums);
     }
     memset(w->sums, 0, entries * sizeof *w->sums); /* then cleared by who takes them */
+    if (shape.path->prepare)
+        shape.path->prepare(s);
 }
 
 void contact_put_back(struct sim *s)
@@ -127,6 +133,9 @@ void contact_put_back(struct sim *s)
 #pragma omp parallel for schedule(static)
     for (int run = 0; run < s->contacts->runs; run++)
         shape.path->put_back(s, run);
+    for (int run = 0; run < s->contacts->runs; run++)
+        if (s->contacts->report[run].points > 0)
+            shape.path->stop(s);
 }
 
 /* The contact of a slot is over: nothing is remembered, nothing acts. */
@@ -189,6 +198,11 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
                               .time = time,
                               .asked = asked};
     struct block b;
+    r->touching = 0;
+    r->energy = r->overlap = 0.0;
+    r->too_deep = false;
+    r->points = 0;
+    r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
     if (choose) {
         if (shape.path->put_back)
             shape.path->put_back(s, run);
@@ -200,15 +214,11 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     b.kept = NULL;
     if (walls || choose)
         memset(to.wall, 0, (size_t)s->walls.n * sizeof *to.wall);
-    r->touching = 0;
-    r->energy = r->overlap = 0.0;
-    r->too_deep = false;
-    r->points = 0;
-    r->skeleton = (double4){0.0, 0.0, 0.0, 0.0};
     shape.path->pairs(s, &b, &nb->pairs.active[nb->pairs.begin[first]], nb->pairs.n_active[run],
                       &to);
     if (walls)
         shape.path->walls(s, run, &b, &to);
+    r->too_deep = r->too_deep || r->points > 0;
     r->skeleton_sum += r->skeleton;
     for (int k = 0; walls && k < s->walls.n; k++)
         w->wall_sum[(size_t)run * s->walls.n + k].both += to.wall[k].both;

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include "contact_block.h"
+#include "contact_members.h"
 #include "contact_pack.h"
 #include "contact_wall_pack.h"
 #include "neighbours.h"
@@ -30,6 +31,7 @@ struct contact_work {
     struct report *report;       /* per run */
     struct pack *pack;           /* per run */
     struct wall_pack *wall_pack; /* per run */
+    struct members members;      /* of contact_members.c */
     struct sums *wall_force; /* per run and wall: on it, with the torque about its pivot, now */
     struct sums *wall_sum;   /* the same, over the steps since it was last collected */
     bool watched;            /* someone looks at single contacts (contact_view.h) */

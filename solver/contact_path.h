@@ -10,6 +10,11 @@ struct neighbours;
 struct turning;
 
 struct contact_path {
+    /* Room of its own, once the contacts' is there; what it keeps beside the grains, after every rebuild of
+     * the lists. NULL: nothing. */
+    void (*create)(struct sim *s);
+    void (*free)(struct sim *s);
+    void (*prepare)(struct sim *s);
     int (*rows)(const struct sim *s); /* reals of memory per slot, in fours */
     /* Works `count` pair slots, and the wall slots of a run, through shape and laws; forces are
      * added to those of the target. */
@@ -27,6 +32,8 @@ struct contact_path {
     void (*put_back)(struct sim *s, int run);
     const struct turning *turning; /* NULL: a grain's inertia is a number, and nobody
                                                  asks for its orientation */
+    bool
+        turns; /* which parts of two bodies are within the thin skin depends on how they are turned */
 };
 
 #endif

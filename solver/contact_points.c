@@ -27,7 +27,7 @@ struct cut points_cut(const struct sim *s)
     return c;
 }
 
-static int rows(const struct sim *s)
+int points_rows(const struct sim *s)
 {
     const struct cut c = points_cut(s);
     return c.first + c.most * (RECORD_HEAD + c.rows);
@@ -182,7 +182,7 @@ static void guard(const struct block *b, real most, struct report *r)
 }
 
 /* Tells of the first run that has something to tell. */
-static void stop(const struct sim *s)
+void points_stop(const struct sim *s)
 {
     for (int run = 0; run < s->neighbours.runs; run++) {
         const struct report *const r = &s->contacts->report[run];
@@ -204,14 +204,15 @@ struct kept {
     struct seen seen[];
 };
 
-static size_t seen_size(const struct sim *s)
+size_t points_seen_size(const struct sim *s)
 {
     return sizeof(struct kept) + (size_t)points_cut(s).most * sizeof(struct seen);
 }
 
 static struct kept *kept_of(const struct sim *s, bool walls, int slot)
 {
-    return (struct kept *)((char *)s->contacts->seen[walls] + (size_t)slot * seen_size(s));
+    return (struct kept *)((char *)s->contacts->seen[walls] +
+                           (size_t)slot * points_seen_size(s));
 }
 
 void points_forget_seen(const struct sim *s, bool walls, int slot)
@@ -220,13 +221,17 @@ void points_forget_seen(const struct sim *s, bool walls, int slot)
         kept_of(s, walls, slot)->n = 0;
 }
 
-static void note_seen(const struct sim *s, const struct block *b, int c)
+void points_note_seen(const struct sim *s, const struct block *b, int c, struct report *r)
 {
     const struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
     struct kept *const kept = kept_of(s, b->walls, b->slot[c]);
     const double4 f = laws_force(b, c);
     const int i = b->c.i[c];
+    if (kept->n == points_cut(s).most) {
+        r->points = kept->n + 1;
+        return;
+    }
     struct seen *const v = &kept->seen[kept->n++];
     const vec3 arm_i = v3((double)l->ix[c], (double)l->iy[c], (double)l->iz[c]);
     const vec3 arm_j = v3((double)l->jx[c], (double)l->jy[c], (double)l->jz[c]);
@@ -249,7 +254,7 @@ static void report_all(const struct sim *s, struct block *b, struct report *r)
         r->touching += depth > 0.0;
         r->overlap = fmax(r->overlap, depth / (double)b->scale[c]);
         if (s->contacts->watched)
-            note_seen(s, b, c);
+            points_note_seen(s, b, c, r);
     }
 }
 
@@ -451,7 +456,7 @@ static size_t view_list(const struct sim *s, bool walls, struct seen *out)
     return n;
 }
 
-static void view(const struct sim *s, struct contact_view *v)
+void points_view(const struct sim *s, struct contact_view *v)
 {
     v->n = 0;
     if (s->neighbours.builds == 0)
@@ -462,10 +467,10 @@ static void view(const struct sim *s, struct contact_view *v)
     view_list(s, true, v->seen + pairs);
 }
 
-const struct contact_path contact_points = {.rows = rows,
+const struct contact_path contact_points = {.rows = points_rows,
                                             .pairs = work_pairs,
                                             .walls = points_walls,
-                                            .view = view,
-                                            .seen_size = seen_size,
-                                            .stop = stop,
+                                            .view = points_view,
+                                            .seen_size = points_seen_size,
+                                            .stop = points_stop,
                                             .turning = &turning};

@@ -61,6 +61,12 @@ struct point_of {
     const struct shape_point *p;
 };
 
+/* What paths with such slots have in common, see contact_path.h. */
+int points_rows(const struct sim *s);
+void points_view(const struct sim *s, struct contact_view *v);
+size_t points_seen_size(const struct sim *s);
+void points_stop(const struct sim *s);
+
 struct shape_pose points_pose(const struct sim *s, int i);
 
 /* What pairs and walls write alike: geometry, memory, masses, the spin of i. Returns its lane. */
@@ -77,6 +83,8 @@ void points_work(struct sim *s, struct block *b, const struct target *to);
 
 /* Someone looks at single contacts, and a slot is worked anew. */
 void points_forget_seen(const struct sim *s, bool walls, int slot);
+/* Keeps a contact, whose levers and row of force are there, for who looks at it. */
+void points_note_seen(const struct sim *s, const struct block *b, int c, struct report *r);
 
 /* The wall slots of a run (contact_points_walls.c). */
 void points_walls(struct sim *s, int run, struct block *b, const struct target *to);

@@ -17,6 +17,18 @@ spheres_turn_in(const struct sim *s, const int *grain, real8 out[8])
     turn8(out);
 }
 
+/* Contacts of spheres with each other, a block of them (b->n, b->c.i, b->c.j, b->kept are given), in this
+ * order: what is the same for every block of a run, once; places and motion of the centres, the
+ * nearest image of the distances, materials; then overlaps and velocities at the contact, with
+ * `before`: the overlaps of the last step, which come to be those of this one. */
+void spheres_open(const struct sim *s, struct block *b, const struct target *to);
+void spheres_gather(const struct sim *s, struct block *b);
+void spheres_nearest(const struct sim *s, struct block *b);
+void spheres_materials(const struct sim *s, struct block *b);
+void spheres_meet(const struct sim *s, struct block *b, real *restrict before,
+                  struct report *r);
+/* Adds the forces of a block to the sums of i and of j, the grain `to` as the run counts it. */
+void spheres_add(const struct block *b, const int *restrict to, const struct target *target);
 /* Dashpots of contacts that began within the step; began: overlaps at the last one. */
 void spheres_starts(struct touch *t, const real *began);
 /* Where no law reaches, nothing is remembered. */

@@ -114,12 +114,19 @@ static int run_end(const struct sim *s, int run)
     return (run + 1) * RUN < s->grains.n ? (run + 1) * RUN : s->grains.n;
 }
 
+/* m2/s2, the square of the largest speed that parts of a grain have by its spin. */
+static inline double tip_speed(const struct body *b)
+{
+    const double4 w = __builtin_convertvector(b->spin, double4);
+    return (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * (w[3] * w[3]);
+}
+
 void motion_start(struct sim *s, int parity)
 {
     const struct grains *const g = &s->grains;
     const struct turning *const turns = shape.path->turning;
     const struct kicks k = kicks_of(s);
-    double fastest = 0.0;
+    double fastest = 0.0, tip = 0.0;
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < (g->n + RUN - 1) / RUN; run++)
         for (int i = run * RUN; i < run_end(s, run); i++) {
@@ -131,10 +138,13 @@ void motion_start(struct sim *s, int parity)
             const double square =
                 kick_drift(s, &k, i, state_of(g, i), rates(s, &k, i, at_hand));
             fastest = square <= fastest ? fastest : square; /* not a number counts as fast */
-            if (turns)
+            if (turns) {
                 turns->start(s, i, spin, t);
+                const double own = tip_speed(&s->bodies[i]);
+                tip = own <= tip ? tip : own;
+            }
         }
-    neighbours_speed(s, parity, fastest);
+    neighbours_speed(s, parity, fastest, tip);
 #pragma omp barrier
 }
 
@@ -179,7 +189,7 @@ void motion_turn(struct sim *s, bool last, int parity)
     struct grains *const g = &s->grains;
     const struct turning *const turns = shape.path->turning;
     const struct kicks k = kicks_of(s);
-    double fastest = 0.0;
+    double fastest = 0.0, tip = 0.0;
     if (last) {
         end_steps(s);
         return;
@@ -195,10 +205,13 @@ void motion_turn(struct sim *s, bool last, int parity)
             m.vel_spin += k.half * rate;
             const double square = kick_drift(s, &k, i, m, rate);
             fastest = square <= fastest ? fastest : square;
-            if (turns)
+            if (turns) {
                 turns->turn(s, i, torque_of(f));
+                const double own = tip_speed(&s->bodies[i]);
+                tip = own <= tip ? tip : own;
+            }
         }
-    neighbours_speed(s, parity, fastest);
+    neighbours_speed(s, parity, fastest, tip);
 #pragma omp barrier
 }
 

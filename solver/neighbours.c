@@ -84,8 +84,9 @@ static void choose_skins(struct sim *s)
     const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
     const double way = 2.0 * fmax(s->neighbours.way, s->walls.speed * s->run.dt);
     s->neighbours.skin = fmin(fmax(SKIN_STEPS * way, SKIN_LEAST * mean), SKIN_MOST * mean);
-    const double inner = fmin(fmax(INNER_STEPS * way, INNER_LEAST * mean), INNER_MOST * mean);
-    s->neighbours.inner = inner > 2.0 * way ? inner : 0.0;
+    const double both = way + 2.0 * s->neighbours.tip;
+    const double inner = fmin(fmax(INNER_STEPS * both, INNER_LEAST * mean), INNER_MOST * mean);
+    s->neighbours.inner = inner > 2.0 * both ? inner : 0.0;
 }
 
 /* Room for n slots of `grains` grains; what was there is lost. */
@@ -300,18 +301,28 @@ static void make_halos(struct neighbours *nb, int n)
     xfree(halo);
 }
 
-void neighbours_speed(struct sim *s, int step, double square)
+/* The largest; not a number stays. */
+static void raise_to(double *most, double x)
 {
-    double *const fastest = &s->neighbours.fastest[step % 2];
+    if (!(x <= *most))
+        *most = x;
+}
+
+void neighbours_speed(struct sim *s, int step, double square, double tip)
+{
+    struct neighbours *const nb = &s->neighbours;
 #pragma omp critical(neighbours_speed)
-    if (!(square <= *fastest)) /* the largest; not a number stays */
-        *fastest = square;
+    {
+        raise_to(&nb->fastest[step % 2], square);
+        raise_to(&nb->tips[step % 2], tip);
+    }
 }
 
 struct ageing neighbours_ageing(const struct sim *s, bool new)
 {
     const struct neighbours *const nb = &s->neighbours;
     return (struct ageing){.way = nb->way,
+                           .tip = nb->tip,
                            .moved = nb->moved,
                            .moved_inner = new ? 0.0 : nb->moved_inner,
                            .choose = true};
@@ -323,8 +334,9 @@ bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
     struct neighbours *const nb = &s->neighbours;
     const double way = sqrt(nb->fastest[step % 2]) * s->run.dt;
     age->way = way;
+    age->tip = shape.path->turns ? sqrt(nb->tips[step % 2]) * s->run.dt : 0.0;
     age->moved += way;
-    age->moved_inner += way;
+    age->moved_inner += way + age->tip;
     if (!(age->moved <= 0.5 * nb->skin))
         return false;
     age->choose = !(age->moved_inner <= 0.5 * nb->inner);
@@ -333,7 +345,7 @@ bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
         age->choices++;
     }
 #pragma omp master
-    nb->fastest[(step + 1) % 2] = 0.0;
+    nb->fastest[(step + 1) % 2] = nb->tips[(step + 1) % 2] = 0.0;
     return true;
 }
 
@@ -341,10 +353,11 @@ void neighbours_aged(struct sim *s, const struct ageing *age)
 {
     struct neighbours *const nb = &s->neighbours;
     nb->way = age->way;
+    nb->tip = age->tip;
     nb->moved = age->moved;
     nb->moved_inner = age->moved_inner;
     nb->choices += age->choices;
-    nb->fastest[0] = nb->fastest[1] = 0.0;
+    nb->fastest[0] = nb->fastest[1] = nb->tips[0] = nb->tips[1] = 0.0;
 }
 
 void neighbours_rebuild(struct sim *s)

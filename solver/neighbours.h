@@ -48,8 +48,11 @@ struct neighbours {
     int listed;   /* grains in the lists; newcomers stand behind them */
     double moved; /* m, that a grain may have moved since the list was made */
     double way;   /* m, the largest of the last step */
+    double
+        tip; /* m, the largest of the last step of a part of a grain by its spin, where parts matter */
     double moved_inner; /* m, since the active slots were chosen */
     double fastest[2];  /* m2/s2, squares of largest speeds, of the step at hand and the next */
+    double tips[2];     /* the same by spins, see tip */
     long builds, choices; /* lists made, active slots chosen */
     long touching;        /* contacts, when last counted */
 };
@@ -59,14 +62,14 @@ void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 
-/* A thread reports the square of the largest speed among its grains, for a step
- * whose parity is that of `step`. */
-void neighbours_speed(struct sim *s, int step, double square);
+/* A thread reports the square of the largest speed among its grains, and of those of their parts by spins,
+ * for a step whose parity is that of `step`. */
+void neighbours_speed(struct sim *s, int step, double square, double tip);
 
 /* How old the lists are, as every thread of a team counts it for itself. */
 struct ageing {
-    double way, moved, moved_inner; /* m */
-    bool choose;                    /* the active slots are to be chosen anew at this step */
+    double way, tip, moved, moved_inner; /* m */
+    bool choose; /* the active slots are to be chosen anew at this step */
     long choices;
 };
 

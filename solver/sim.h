@@ -21,6 +21,7 @@
 
 struct probes;       /* what is measured of the fluid */
 struct contact_work; /* scratch of the contact loop */
+struct attitude;
 
 enum save_bed { SAVE_NONE, SAVE_START, SAVE_END };
 
@@ -51,7 +52,8 @@ struct sim {
     struct grains grains;
     struct traffic traffic;
     struct frame frame;
-    struct body *bodies; /* per grain, as the contact loop reads it */
+    struct body *bodies;        /* per grain, as the contact loop reads it */
+    struct attitude *attitudes; /* per grain, likewise; NULL: the path asks for none */
     struct neighbours neighbours;
     struct walls walls;
     struct contact_work *contacts;

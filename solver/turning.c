@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include "attitude.h"
 #include "sim.h"
 
 static const struct key keys[] = {
@@ -78,6 +79,8 @@ static void turn_round(struct sim *s, int i, vec3 torque)
     g->full_spin[i] = v3_axpy(spin, kick, torque);
     g->orientation[i] =
         quat_unit(quat_mul((struct quat){1.0, half.x, half.y, half.z}, g->orientation[i]));
+    if (s->attitudes)
+        attitude_write(&s->attitudes[i], g->orientation[i], g->full_spin[i]);
 }
 
 /* Turns freely with the angular momentum at hand; writes the spins. */
@@ -96,6 +99,8 @@ static void drift(struct sim *s, int i, vec3 torque)
     b->spin[2] = (real)r.spin.z;
     if (BODY_IS_FLOAT)
         g->spin[i] = r.spin;
+    if (s->attitudes)
+        attitude_write(&s->attitudes[i], r.q, g->full_spin[i]);
 }
 
 static void start(struct sim *s, int i, vec3 spin, vec3 torque)
