@@ -27,6 +27,10 @@ void contact_init(struct scene *s, const struct materials *m);
  * zero. A law without cohesion never pulls: the normal force is cut at zero. */
 void contact_forces(struct touch *t, real (*history)[TOUCH]);
 
+/* c[k], N s/m, of every contact: what the normal force falls by over the normal velocity, before it is
+ * cut and without touch.start; for dashpots of faces that rock on each other (contact_rocking.c). */
+void contact_damping(const struct touch *t, real *c);
+
 /* Sets energy [J], what the springs hold after contact_forces; asked for at the end of a step
  * whose ledger is closed, not at every one. */
 void contact_energy(struct touch *t, real (*history)[TOUCH]);

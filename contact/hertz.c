@@ -67,6 +67,14 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
     }
 }
 
+void contact_damping(const struct touch *t, real *c)
+{
+    for (int k = 0; k < t->n; k++) {
+        const real depth = t->depth[k] > 0.0 ? t->depth[k] : 0.0;
+        c[k] = table[t->pair[k]][CN] * sqrt(sqrt(t->r_eff[k] * depth) * t->m_eff[k]);
+    }
+}
+
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     (void)history;

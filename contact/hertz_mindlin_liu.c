@@ -118,6 +118,14 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
     }
 }
 
+void contact_damping(const struct touch *t, real *c)
+{
+    for (int k = 0; k < t->n; k++) {
+        const real depth = t->depth[k] > 0.0 ? t->depth[k] : 0.0;
+        c[k] = table[t->pair[k]][CN] * sqrt(sqrt(t->r_eff[k] * depth) * t->m_eff[k]);
+    }
+}
+
 /* The spring's is the integral of its force over s, mu F_n^e s_max (x - 0.4 (1 - (1 -
  * x)^(5/2))). */
 void contact_energy(struct touch *t, real (*history)[TOUCH])

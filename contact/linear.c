@@ -128,6 +128,14 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
     }
 }
 
+void contact_damping(const struct touch *t, real *c)
+{
+    for (int k = 0; k < t->n; k++) {
+        const real *const p = table[t->pair[k]];
+        c[k] = t->depth[k] > 0.0 ? p[CN] * sqrt(t->m_eff[k]) + p[BN] : 0.0;
+    }
+}
+
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     const real *const hx = history[0], *const hy = history[1], *const hz = history[2];

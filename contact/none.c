@@ -22,6 +22,12 @@ void contact_forces(struct touch *t, real (*history)[TOUCH])
         t->fx[c] = t->fy[c] = t->fz[c] = t->fn[c] = t->kn[c] = 0.0;
 }
 
+void contact_damping(const struct touch *t, real *c)
+{
+    for (int k = 0; k < t->n; k++)
+        c[k] = 0.0;
+}
+
 void contact_energy(struct touch *t, real (*history)[TOUCH])
 {
     (void)history;

@@ -95,6 +95,9 @@ struct shape_point {
      * one, give the radius of j as r_i.) For faces on faces choose what stands for the stiffness
      * wanted, and say so in the shape's head. */
     double r_i, r_j;
+    vec3
+        lever; /* m, of one of several points that stand for a patch: from the patch's middle to it;
+                   faces that rock on each other are damped by it (contact_rocking.c). 0: none */
     double scale; /* m; overlap over this is what run.overlap_max limits */
     double
         share; /* where several points share one stiffness (the corners of two faces in contact):
@@ -121,6 +124,7 @@ static inline void shape_balls_touch(struct shape_point *restrict p, vec3 ci, do
     p->from_j = cj;
     p->r_i = ri;
     p->r_j = rj;
+    p->lever = v3(0.0, 0.0, 0.0);
     p->scale = ri < rj ? ri : rj;
     p->share = 0.0;
 }

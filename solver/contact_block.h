@@ -67,6 +67,9 @@ struct block {
     bool was[TOUCH];     /* it overlapped at the step before */
     real share[TOUCH];   /* of the stiffness of its pair: factor of forces, couples, energy */
     real scale[TOUCH];   /* m, that overlap is measured by */
+    bool rocks;          /* some contact has a lever */
+    vec3 lever[TOUCH];   /* m, from the middle of its patch */
+    vec3 couple[TOUCH];  /* N m, on i, of the dashpot of rocking */
 };
 
 /* Where the forces of a run go. */

@@ -47,7 +47,7 @@ void laws_velocities(struct block *b)
 
 /* With A = 1/I of a grain and B = A m r^2, its inertia about the contact point is (1 + B)/A; of both
  * bodies together with one division; A = 0 of a frozen grain and of a wall. */
-static void inertia(const struct grains *g, struct block *b)
+void laws_inertia(const struct grains *g, struct block *b)
 {
     struct touch *const t = &b->t;
     double against[TOUCH];
@@ -74,7 +74,7 @@ static void extras(const struct grains *g, struct block *b, unsigned asked)
             t->sz[c] = b->pz[c];
         }
     if (asked & TOUCH_INERTIA)
-        inertia(g, b);
+        laws_inertia(g, b);
     if (asked & TOUCH_COUPLES) {
         memset(t->mx, 0, sizeof t->mx);
         memset(t->my, 0, sizeof t->my);

@@ -26,6 +26,8 @@ static inline real laws_first_part(const struct touch *t, int c)
     return fmin(fmax(since, 0.0), 1.0) + 0.5;
 }
 
+/* kg m2, reduced inertia about the contact, t->inertia. */
+void laws_inertia(const struct grains *g, struct block *b);
 /* Forces, couples and memory of every contact. */
 void laws_apply(struct sim *s, struct block *b);
 /* Notes the bonds that broke; put in order where they are read. */

@@ -57,6 +57,8 @@ int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
     b->was[c] = o->was;
     b->scale[c] = (real)p->scale;
     b->share[c] = p->share > 0.0 ? (real)p->share : (real)1.0;
+    b->lever[c] = p->lever;
+    b->rocks = b->rocks || v3_dot(p->lever, p->lever) > 0.0;
     t->depth[c] = (real)p->depth;
     t->nx[c] = (real)p->normal.x;
     t->ny[c] = (real)p->normal.y;
@@ -273,10 +275,14 @@ void points_work(struct sim *s, struct block *b, const struct target *to)
     starts(b);
     load_memory(b, law_rows);
     laws_apply(s, b);
+    if (b->rocks)
+        points_rock(s, b);
     share_out(b);
     laws_note_broken(s, b, l, to->time);
     keep(b, law_rows);
     laws_pack(b);
+    if (b->rocks)
+        points_add_rocking(b);
     guard(b, (real)s->run.overlap_max, to->report);
     if (to->asked)
         report_all(s, b, to->report);
@@ -287,6 +293,7 @@ void points_work(struct sim *s, struct block *b, const struct target *to)
     if (!b->walls && s->grains.n_frozen > 0)
         laws_add_skeleton(&s->grains, b, to->report);
     b->n = 0;
+    b->rocks = false;
 }
 
 /* Finds the memory of a slot's points and enters them. */
@@ -406,6 +413,7 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     struct shape_pair pair = {.reach = s->neighbours.reach};
     int before = -1;
     b->n = 0;
+    b->rocks = false;
     b->walls = false;
     for (int k = 0; k < count; k++) {
         const int i = l->owner[slot[k]], j = l->other[slot[k]];

@@ -78,6 +78,11 @@ int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
 int points_match(const struct cut *cut, real *memory, const struct shape_point *p,
                  const vec3 *place, int n, double close, int *record);
 
+/* The dashpot of faces that rock on each other (contact_rocking.c): after the laws the couples of the block's
+ * contacts that have a lever; then their parts, to the rows of torques. */
+void points_rock(const struct sim *s, struct block *b);
+void points_add_rocking(struct block *b);
+
 /* Works what is in the block, and empties it. */
 void points_work(struct sim *s, struct block *b, const struct target *to);
 

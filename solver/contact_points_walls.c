@@ -432,6 +432,7 @@ void points_walls(struct sim *s, int run, struct block *b, const struct target *
     const struct cut cut = points_cut(s);
     struct meetings all = {0};
     b->n = 0;
+    b->rocks = false;
     b->walls = true;
     for (int k = 0; k < l->n_active[run];) {
         struct around a = {.i = l->owner[active[k]], .slot = &active[k]};

@@ -31,7 +31,8 @@ struct law {
     void (*init)(struct scene *, const struct materials *);
     void (*forces)(struct touch *, real (*)[TOUCH]);
     void (*energy)(struct touch *, real (*)[TOUCH]);
-    double (*range)(void); /* NULL in contact and rolling */
+    void (*damping)(const struct touch *, real *); /* of contact alone */
+    double (*range)(void);                         /* NULL in contact and rolling */
     const int *history;
     const unsigned *needs; /* NULL in contact */
 };
@@ -54,7 +55,9 @@ static inline struct law law_load(const struct law_slot *slot, void *answer)
     law_symbol(answer, s, slot->verb, &l.forces, sizeof l.forces);
     law_symbol(answer, s, "energy", &l.energy, sizeof l.energy);
     law_symbol(answer, s, "history", &l.history, sizeof l.history);
-    if (strcmp(s, "contact") != 0)
+    if (strcmp(s, "contact") == 0)
+        law_symbol(answer, s, "damping", &l.damping, sizeof l.damping);
+    else
         law_symbol(answer, s, "needs", &l.needs, sizeof l.needs);
     if (strcmp(s, "contact") != 0 && strcmp(s, "rolling") != 0)
         law_symbol(answer, s, "range", &l.range, sizeof l.range);

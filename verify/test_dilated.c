@@ -132,7 +132,7 @@ static void check_bounce(const char *orientation, const char *name, const char *
 }
 
 /* On a slope below the angle of friction it stays, above it slides; it does not tip below 45 degrees. */
-static double slides(double angle, double *gain)
+static double slides(double angle, double settle, double *gain)
 {
     const double g = 9.81;
     char *const text = xprintf(
@@ -142,7 +142,7 @@ static double slides(double angle, double *gain)
         g * sin(angle), -g * cos(angle), diameter_of_cube());
     struct sim *const s = sim_from(text);
     double most = 0.0;
-    run_for(s, 0.1, &most);
+    run_for(s, settle, &most);
     const double v = s->grains.vel[0].x;
     run_for(s, 0.1, &most);
     *gain = s->grains.vel[0].x - v; /* in 0.1 s, after the drop by its own overlap */
@@ -157,12 +157,47 @@ static void check_slope(void)
 {
     const double limit = atan(0.5);
     double gain;
-    check(slides(0.97 * limit, &gain) < 1e-4 && fabs(gain) < 1e-5,
+    /* at rest once the crown has rolled to where the load is, in 0.03 s to 1/e */
+    check(slides(0.97 * limit, 0.3, &gain) < 1e-4 && fabs(gain) < 1e-5,
           "a cube on a slope of 0.97 of the angle of friction stays");
     const double g = 9.81;
-    slides(1.1 * limit, &gain);
+    slides(1.1 * limit, 0.1, &gain);
     const double want = 0.1 * g * (sin(1.1 * limit) - 0.5 * cos(1.1 * limit));
     check_rel(gain, want, 3e-3, "of 1.1 of it, it slides as the law says, m/s in 0.1 s");
+}
+
+/* A cube on a plane, tilted by far less than its crown lets it: it rights itself as slowly as the dashpot of
+ * rocking lets it (contact_rocking.c), I* x^2 - C x + K = 0 with K = m g (radius of the crown - height). */
+static void check_rocking(double zeta)
+{
+    const double tilt = 2e-4, edge = 8e-3, r = 1e-3, young = 20e6, poisson = 0.3;
+    char *const text =
+        xprintf("[domain]\nsize = 100 100 100 mm\n[run]\nend = 10 s\nsubsteps = 5\nsafety = "
+                "0.1\n" MATERIAL "damping_ratio = %.17g\nfriction = 0.5\n[grains c]\n" CUBE
+                "orientation = 1 %.17g 0 0\ndiameter = %.15g mm\nposition = 50 50 4.9995 mm\n",
+                zeta, 0.5 * tilt, diameter_of_cube());
+    struct sim *const s = sim_from(text);
+    const struct grains *const g = &s->grains;
+    const double m = g->mass[0], size = 0.5e-3 * diameter_of_cube(), weight = m * 9.80665;
+    const double e_star = young / (1.0 - poisson * poisson) / 2.0;
+    const double depth = pow(weight / (4.0 / 3.0 * e_star * sqrt(size)), 2.0 / 3.0);
+    const double c = 2.0 * sqrt(5.0 / 6.0) * zeta * sqrt(2.0 * e_star * sqrt(size * depth) * m);
+    const double inertia = 1.0 / g->inv_inertia[0] + m * size * size, far = edge / sqrt(2.0);
+    const double whole =
+        c * sqrt(inertia / m * (2.0 / 3.0) * far * far * far / sqrt(size * depth));
+    const double spread = 0.5 * c * far * far; /* of the normal dashpot itself */
+    const double big = spread + (whole - spread) / (1.0 + whole * s->run.dt / inertia);
+    const double k = weight * (CROWN_SHARP / size * edge * edge / 4.0 + r - (5e-3 - depth));
+    const double own = g->inertia[0].x + m * 25e-6;
+    const double slow = 2.0 * k / (big + sqrt(big * big - 4.0 * own * k));
+    double most = 0.0;
+    run_for(s, 1.0 / slow, &most);
+    const double before = g->orientation[0].x;
+    run_for(s, 1.0 / slow, &most);
+    check_rel(log(before / g->orientation[0].x), 1.0, 0.02,
+              "a tilted cube rights itself as the dashpot of a flat face lets it");
+    sim_free(s);
+    xfree(text);
 }
 
 /* Volumes: those of the parts for grids, and the shadow's mean, a quarter of the surface of a convex body
@@ -297,7 +332,7 @@ int main(void)
     check_meshes();
     check_stack(1, 0.0, 0.3, 1e-12);
     check_stack(3, 0.0, 0.3, 1e-12);
-    check_stack(3, 0.3, 2.0, 1e-6);
+    check_stack(3, 0.3, 2.0, 1e-12);
     const char *const way[] = {"0.3 0.2 -0.4 0.1", "aligned", "1 0.02 0.01 0", "1 0.4142 0 0"};
     for (int k = 0; k < 4; k++) {
         check_bounce(way[k], "plane", "");
@@ -305,5 +340,7 @@ int main(void)
         check_bounce(way[k], "table over its edge", PLATE("52.5 30 20", "30 0 0"));
     }
     check_slope();
+    check_rocking(0.1);
+    check_rocking(0.36);
     return check_end();
 }

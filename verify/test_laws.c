@@ -315,6 +315,46 @@ static void judge_pull(const struct set *s, const char *name)
           idle);
 }
 
+/* contact_damping is what the normal force falls by with the normal velocity. */
+static void judge_damping(const struct set *s, const char *name)
+{
+    static struct touch t;
+    static real h[HISTORY_MAX][TOUCH];
+    real given[TOUCH], still[TOUCH];
+    double worst = 0.0, most = 0.0;
+    start_set(s, true);
+    for (int moves = 0; moves < 2; moves++) {
+        const double v = moves ? -3.7e-4 : 0.0;
+        memset(h, 0, sizeof h);
+        t.n = TOUCH;
+        t.dt = 1e-7;
+        for (int c = 0; c < TOUCH; c++) {
+            const struct law_pair p = {.r_i = 3.1e-3,
+                                       .r_j = 4.7e-3,
+                                       .m_i = 2.3e-4,
+                                       .m_j = 7.9e-4,
+                                       .depth = 1e-6 * (c - 3) * (1 + c % 7),
+                                       .n = v3(0.0, 0.0, 1.0),
+                                       .v = v3(0.0, 0.0, v),
+                                       .pair = c % 4};
+            law_put(&t, c, &p);
+        }
+        spoil(s, &t);
+        s->law[0]->damping(&t, given);
+        s->law[0]->forces(&t, h);
+        for (int c = 0; c < TOUCH && moves == 0; c++)
+            still[c] = t.fn[c];
+        for (int c = 0; c < TOUCH && moves == 1; c++) {
+            const double found = ((double)t.fn[c] - (double)still[c]) / -v;
+            worst = fmax(worst, fabs(found - (double)given[c]));
+            most = fmax(most, found);
+        }
+    }
+    check(worst <= 1e-9 * most,
+          "%s: the dashpot that it tells of is that of its force (%.2g off)", name,
+          worst / fmax(most, 1e-300));
+}
+
 static void each_alone(void)
 {
     for (int k = 0; k < LAW_SLOTS; k++)
@@ -325,6 +365,8 @@ static void each_alone(void)
             judge(&s, name);
             if (strcmp(law_slots[k].name, "cohesion") != 0)
                 judge_pull(&s, name);
+            if (k == 0)
+                judge_damping(&s, name);
             xfree(name);
         }
 }

@@ -109,13 +109,15 @@ static int put(const struct dilated *d, const struct shape_pose *i, const struct
     const int n = point ? 1 : 4;
     for (int k = 0; k < n; k++) {
         const double far = point ? 0.0 : k % 2 ? -wide * size : wide * size;
-        const vec3 from = v3_axpy(at, far, mat3_turn(&i->turn, side[k / 2]));
+        const vec3 lever = v3_scale(far, mat3_turn(&i->turn, side[k / 2]));
+        const vec3 from = v3_add(at, lever);
         out[k] = (struct shape_point){.id = first + (point ? 0 : 1 + k),
                                       .depth = depth,
                                       .normal = normal,
                                       .at_i = v3_axpy(from, 0.5 * depth - size * d->r, normal),
                                       .from_i = from,
                                       .r_i = size,
+                                      .lever = lever,
                                       .scale = size,
                                       .share = 1.0 / n};
     }

@@ -160,6 +160,7 @@ static struct shape_point make_point(const struct shape_pair *p, const struct pa
                                 .from_j = v3_sub(on_j, apart),
                                 .r_i = p->i.size,
                                 .r_j = p->j.size,
+                                .lever = v3_scale(size, mat3_turn(&p->i.turn, q->lever)),
                                 .scale = fmin(p->i.size, p->j.size),
                                 .share = q->share};
 }
@@ -200,13 +201,13 @@ static int spread(const struct crown_gap *g, double size, struct patch_point *q)
     const vec3 first = v3_add(v3_scale(g->r11, g->e1), v3_scale(g->r12, g->e2)),
                second = v3_add(v3_scale(g->r12, g->e1), v3_scale(g->r22, g->e2));
     if (width < CROWN_NARROW * size) {
-        q[0] = (struct patch_point){0, 1.0, g->gap, g->on_b};
+        q[0] = (struct patch_point){.share = 1.0, .gap = g->gap, .on_b = g->on_b};
         return 1;
     }
-    for (int k = 0; k < 4; k++)
-        q[k] = (struct patch_point){
-            1 + k, 0.25, g->gap,
-            v3_axpy(g->on_b, k % 2 ? -sqrt(2.0) : sqrt(2.0), k < 2 ? first : second)};
+    for (int k = 0; k < 4; k++) {
+        const vec3 lever = v3_scale(k % 2 ? -sqrt(2.0) : sqrt(2.0), k < 2 ? first : second);
+        q[k] = (struct patch_point){1 + k, 0.25, g->gap, v3_add(g->on_b, lever), lever};
+    }
     return 4;
 }
 
@@ -272,7 +273,10 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
                             b = body_of(w->b, pb, v->axes, v->place, v->scale);
     if (gap.distance > 0.0) {
         envelope_gap(&a, w->i->r, &b, v->scale * w->j->r, how->smoothness, &gap);
-        q[0] = (struct patch_point){patch_ids(w->a, w->b) - 1, 1.0, gap.distance, gap.on_b};
+        q[0] = (struct patch_point){.id = patch_ids(w->a, w->b) - 1,
+                                    .share = 1.0,
+                                    .gap = gap.distance,
+                                    .on_b = gap.on_b};
         return gather(p, w, q, 1, gap.normal, v, most, have, out);
     }
     const int n = patch_find(&a, &b, &gap, how->tilt, PATCH_MOST, q);

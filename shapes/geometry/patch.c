@@ -272,7 +272,8 @@ static int hand_out(const struct corners *c, int most, struct patch_point *out)
             if (out[m].share < c->share[k] && (at < 0 || out[m].share < out[at].share))
                 at = m;
         if (at >= 0)
-            out[at] = (struct patch_point){c->id[k], c->share[k], c->gap[k], c->on_b[k]};
+            out[at] = (struct patch_point){
+                .id = c->id[k], .share = c->share[k], .gap = c->gap[k], .on_b = c->on_b[k]};
     }
     for (int k = 0; k < n; k++)
         sum += out[k].share;
@@ -289,7 +290,7 @@ int patch_ids(const struct polyhedron *a, const struct polyhedron *b)
 /* The nearest points alone. */
 static int one_point(int id, const struct gap *gap, vec3 on_b, struct patch_point *out)
 {
-    out[0] = (struct patch_point){id, 1.0, gap->distance, on_b};
+    out[0] = (struct patch_point){.id = id, .share = 1.0, .gap = gap->distance, .on_b = on_b};
     return 1;
 }
 

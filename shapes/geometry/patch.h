@@ -35,6 +35,7 @@ struct patch_point {
     double share; /* of the contact; all add up to 1 */
     double gap;   /* m, between the cores along the normal */
     vec3 on_b;    /* m, place on the core of b; that on a is on_b + gap normal */
+    vec3 lever;   /* m, from the middle of the patch */
 };
 
 /* Ids of points of the two are below this. */
