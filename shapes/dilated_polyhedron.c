@@ -7,10 +7,10 @@
  * vertices, on grains and on flat walls, that of two spheres of the grains' volumes (r_eff of the
  * laws is made of the volume-equivalent radii; the seed leaves its R* open). Where faces lie on
  * faces, four points carry friction, the dashpots of the patch and that of rocking
- * (solver/contact_rocking.c). Curved walls are met by the
- * vertices. The search starts from the last normal, or from the exact distance [Gilbert88]; cores
- * that overlap are still parted, along the direction of least overlap. Or the smoothed envelope of
- * the seed [LiLiuJi23, eqs 12-13]: one point of contact. */
+ * (solver/contact_rocking.c). Curved walls are met by the vertices. The search starts from the last
+ * normal, or from the exact distance [Gilbert88]; cores that overlap are still parted, along the
+ * direction of least overlap. Or the smoothed envelope of the seed [LiLiuJi23, eqs 12-13]: one point
+ * of contact. */
 #include "geometry/dilated_species.h"
 #include "shape.h"
 
