@@ -35,9 +35,8 @@ void points_rock(const struct sim *s, struct block *b)
         b->couple[c] = v3(0.0, 0.0, 0.0);
         if (!(square > 0.0) || !(depth > 0.0) || !(own > 0.0))
             continue;
-        const double whole =
-            own * sqrt(inertia / (double)t->m_eff[c] * (2.0 / 3.0) * square * sqrt(square) /
-                       sqrt((double)t->r_eff[c] * depth));
+        const double whole = own * sqrt(inertia / (double)t->m_eff[c] * (2.0 / 3.0) * square *
+                                        sqrt(square) / sqrt((double)t->r_eff[c] * depth));
         const double more = fmax(2.0 * whole / square - own, 0.0);
         const double u = v3_dot(n, v3_cross(spin, b->lever[c]));
         const double most = fmax((double)t->fn[c] - own * fabs(u), 0.0);
