@@ -2,11 +2,12 @@
  * the front are labelled by their axes, the others by their number in trade.csv. */
 #include <string.h>
 #include "../../solver/picture.h"
+#include "labels.h"
 #include "trade.h"
 
 #define ROUND_OFF 1e-15 /* smaller errors count as none */
 
-enum { MOST_NUMBERED = 60, MOST_LEGEND = 8 };
+enum { MOST_LEGEND = 8, LEGEND_COLUMNS = 4 };
 
 /* "ergun, 2": the values alone, of axes that vary. */
 static char *short_label(const struct study *s, const struct variant *v)
@@ -82,36 +83,55 @@ static int front_order(const struct trade *t, int *order)
     return n;
 }
 
-static void send_labels(FILE *to, const struct trade *t, const int *order, int n)
+static void send_front(FILE *to, const struct trade *t, const int *order, int n)
 {
     fprintf(to, "$front << END\n");
     for (int k = 0; k < n; k++)
         fprintf(to, "%.10g %.10g\n", t->cost[order[k]], error_shown(t, order[k]));
     fprintf(to, "NaN NaN\nEND\n");
+}
+
+static void send_label(FILE *to, struct labels *l, const struct trade *t, int i,
+                       const char *text, int font, const char *colour)
+{
+    const double x = t->cost[i], y = error_shown(t, i);
+    double offset[2];
+    labels_place(l, x, y, 0.72 * font * (double)strlen(text), 1.5 * font, offset);
+    char *const options =
+        xprintf("at %.10g,%.10g left offset screen %.5f,%.5f font ',%d' tc '%s' noenhanced "
+                "front",
+                x, y, offset[0], offset[1], font, colour);
+    picture_text(to, "label", text, options);
+    xfree(options);
+}
+
+static void send_labels(FILE *to, const struct trade *t, const int *order, int n, int axis,
+                        struct labels *l)
+{
+    for (int i = 0; i < t->study.n; i++)
+        if (shown(t, i)) {
+            labels_point(l, t->cost[i], error_shown(t, i), 5.0);
+            labels_bar(l, t->low[i], t->high[i], error_shown(t, i));
+        }
+    if (t->within > l->low[1] && t->within < l->high[1])
+        labels_bar(l, l->low[0], l->high[0], t->within);
     for (int k = 0; k < n; k++) {
         const int i = order[k];
         char *const label = short_label(&t->study, t->study.variant[i]);
         char *const text = xprintf("%d: %s%s", t->study.variant[i]->number, label,
                                    t->error[i] > ROUND_OFF ? "" : " (no error)");
-        char *const what = xprintf("label %d", 100 + k);
-        char *const options =
-            xprintf("at %.10g,%.10g left offset 0.8,0.6 rotate by 12 font ',10' "
-                    "tc '#222222' noenhanced front",
-                    t->cost[i], error_shown(t, i));
-        picture_text(to, what, text, options);
+        send_label(to, l, t, i, text, 10, "#222222");
         xfree(label);
         xfree(text);
-        xfree(what);
-        xfree(options);
     }
-    if (t->study.n > MOST_NUMBERED)
-        return;
-    for (int i = 0; i < t->study.n; i++)
-        if (shown(t, i) && !t->front[i])
-            fprintf(
-                to,
-                "set label %d '%d' at %.10g,%.10g left offset 0.6,0.3 font ',8' tc '#888888'\n",
-                1000 + i, t->study.variant[i]->number, t->cost[i], error_shown(t, i));
+    for (int i = 0; i < t->study.n; i++) {
+        if (!shown(t, i) || t->front[i])
+            continue;
+        const int group = axis < 0 ? 0 : t->study.variant[i]->choice[axis];
+        char *const text = xprintf("%d", t->study.variant[i]->number);
+        send_label(to, l, t, i, text, 8, picture_colour[group % PICTURE_COLOURS]);
+        xfree(text);
+    }
 }
 
 /* 1, 2, 5, 10, ...: decades alone would leave a short axis without a number. */
@@ -130,7 +150,7 @@ static void send_tics(FILE *to, char axis, double low, double high)
 }
 
 /* Ranges with room for the labels; returns false where there is nothing to draw. */
-static bool send_ranges(FILE *to, const struct trade *t)
+static bool send_ranges(FILE *to, const struct trade *t, struct labels *l)
 {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0.0, 0.0};
     for (int i = 0; i < t->study.n; i++)
@@ -147,8 +167,10 @@ static bool send_ranges(FILE *to, const struct trade *t)
         return false;
     for (int a = 0; a < 2; a++) {
         const double span = fmax(high[a] / low[a], 2.0);
-        fprintf(to, "set logscale %c\nset %crange [%.6g:%.6g]\n", "xy"[a], "xy"[a],
-                low[a] / pow(span, 0.06), high[a] * pow(span, a ? 0.12 : 0.3));
+        l->low[a] = low[a] / pow(span, 0.06);
+        l->high[a] = high[a] * pow(span, a ? 0.12 : 0.3);
+        fprintf(to, "set logscale %c\nset %crange [%.6g:%.6g]\n", "xy"[a], "xy"[a], l -> low[a],
+                l -> high[a]);
         if (span > 300.0)
             fprintf(to, "set format %c '10^{%%L}'\n", "xy"[a]);
         else
@@ -162,8 +184,13 @@ void trade_draw(const struct trade *t)
     const struct study *const s = &t->study;
     const int axis = colour_axis(s);
     int *const order = xalloc((size_t)s->n + 1, sizeof *order);
-    const int n = front_order(t, order);
-    struct picture p = picture_open_in(s->directory, "trade.png", 1200, 900);
+    const int n = front_order(t, order), groups = axis < 0 ? 1 : s->axis[axis].n;
+    /* a legend of so many rows below the axes */
+    const int rows =
+        (groups + 1 + (isfinite(t->within) ? 1 : 0) + LEGEND_COLUMNS - 1) / LEGEND_COLUMNS;
+    const double bottom = 0.1 + 0.03 * rows;
+    struct labels l = {.pixels = {1200, 900}, .frame = {0.08, 0.97, bottom, 0.93}};
+    struct picture p = picture_open_in(s->directory, "trade.png", l.pixels[0], l.pixels[1]);
     FILE *const to = p.gnuplot;
     char *const title = xprintf("%s: what accuracy costs", s->scene);
     picture_text(to, "title", title, "font ',16' noenhanced");
@@ -176,16 +203,19 @@ void trade_draw(const struct trade *t)
                  t->against == AGAINST_FINEST ? "error against the finest variant"
                                               : "error against the reference",
                  "");
-    fprintf(to, "set key at screen 0.53,0.075 center top horizontal maxcols 4\n"
-                "set bmargin at screen 0.16\n");
-    if (send_ranges(to, t)) {
+    fprintf(to,
+            "set key at screen 0.53,%g center top horizontal maxcols %d\n"
+            "set lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n",
+            0.01 + 0.03 * rows, LEGEND_COLUMNS, l.frame[0], l.frame[1], l.frame[2], l.frame[3]);
+    if (send_ranges(to, t, &l)) {
         send_points(to, t, axis);
-        send_labels(to, t, order, n);
+        send_front(to, t, order, n);
+        send_labels(to, t, order, n, axis, &l);
         fprintf(to, "plot $front using 1:2 with lines lw 2 lc '#bbbbbb' title 'Pareto front'");
         if (isfinite(t->within))
             fprintf(to, ", %.10g with lines lw 1.2 dt 2 lc '#444444' title 'asked error'",
                     t->within);
-        const int groups = axis < 0 ? 1 : s->axis[axis].n;
         for (int g = 0; g < groups; g++) {
             char *const name =
                 axis < 0 ? xstrdup("variants")
@@ -203,6 +233,7 @@ void trade_draw(const struct trade *t)
                 "plot [0:1] [0:1] NaN notitle\n");
     }
     picture_close(&p);
+    labels_free(&l);
     xfree(title);
     xfree(order);
 }
