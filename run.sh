@@ -291,12 +291,7 @@ case ${1:-} in
     build)
         shift
         parse "$@"
-        [ -n "$scene" ] || refuse "usage: ./run.sh extremes SCENE [axis=values ...]
-                         where it breaks: each point right, wrong, refused, stopped or broken
-./run.sh study FILE [--short] [-o DIR]
-                         the trades and extremes of scenes/studies/NAME.study
-./run.sh axes            the named axes of trade and extremes
-./run.sh build SCENE [section.key=value ...]"
+        [ -n "$scene" ] || refuse "usage: ./run.sh build SCENE [section.key=value ...]"
         scene=$(find_scene "$scene")
         build_scene
         echo "$binary"
