@@ -23,6 +23,16 @@ usage() {
 ./run.sh study FILE [--short] [-o DIR]
                          the trades and extremes of scenes/studies/NAME.study
 ./run.sh axes            the named axes of trade and extremes
+    options of trade:    --within E: the error to be within; exit 1 where none is
+                         --error KEY: the line of summary.txt that is the error (reference_error)
+                         --quantity KEY,...: or lines that are compared, with
+                         --against finest | NUMBER | TABLE.csv: the last value on every axis, ...
+                         --per AXIS: a condition, no choice: what is best at each of its values
+                         --mean AXIS: repetitions (seeds): errors and costs of means over them
+                         --plan grid | one | front: all variants; each axis alone; where the front is
+                         --cost wall | core | memory     --confirm: runs what it recommends again
+    of both:             --repeats N  --timeout S  --fresh  --keep  -j THREADS  -o DIR
+    of extremes:         --within E  --no-edges  --no-force
 ./run.sh build SCENE [section.key=value ...]
                          the path of the binary for the scene
 ./run.sh plot DIR        the pictures of a run again
@@ -202,7 +212,7 @@ run_study() {
                 arguments+=(-o "$(from_caller "$2")")
                 shift
                 ;;
-            --within | --error | --quantity | --against | --plan | --cost | --repeats | --timeout | -j)
+            --within | --error | --quantity | --per | --mean | --against | --plan | --cost | --repeats | --timeout | -j)
                 [ -n "${2:-}" ] || refuse "$1 needs a value"
                 arguments+=("$1" "$2")
                 shift

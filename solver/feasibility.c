@@ -7,7 +7,6 @@
 #include "feasibility.h"
 
 #include "../contact/contact.h"
-#include "../drag/drag.h"
 #include <string.h>
 #include "sim.h"
 
@@ -49,8 +48,7 @@ static double expected_speed(const struct sim *s)
     return sqrt(start * start + 2.0 * fall);
 }
 
-/* The first grain of each species that moves, or -1. */
-static int grain_of_species(const struct sim *s, int species)
+int feasibility_grain(const struct sim *s, int species)
 {
     for (int i = 0; i < s->grains.n; i++)
         if (s->grains.kind[i] == species && s->grains.inv_mass[i] > 0.0)
@@ -84,10 +82,11 @@ static double smallest_mass(const struct sim *s, int species, double radius)
            g->species[species].density;
 }
 
-static double species_duration(const struct sim *s, int species, double radius)
+/* s; of a contact at that speed, of two of them or with a wall */
+static double species_duration(const struct sim *s, int species, double radius, double speed)
 {
     const int m = s->grains.species[species].material;
-    const double v = fmax(expected_speed(s), 1e-9), mass = smallest_mass(s, species, radius);
+    const double v = fmax(speed, 1e-9), mass = smallest_mass(s, species, radius);
     double shortest = contact_duration(m, m, 0.5 * mass, 0.5 * radius, v);
     for (int k = 0; k < s->walls.n; k++)
         shortest =
@@ -104,9 +103,28 @@ double feasibility_grain_limit(const struct sim *s)
             continue;
         const struct species *const sp = &s->grains.species[k];
         limit = fmin(limit, contact_rayleigh(sp->material, radius, sp->density));
-        limit = fmin(limit, PART_OF_CONTACT * species_duration(s, k, radius));
+        limit =
+            fmin(limit, PART_OF_CONTACT * species_duration(s, k, radius, expected_speed(s)));
     }
     return limit;
+}
+
+/* A contact that lasts t at v is deepest at v t/pi if linear, v t/2.94 by Hertz [Johnson85], less with
+ * damping. What falls faster than it sinks in the fluid at hand does so more slowly. */
+#define DEEPEST 0.34
+
+static void overlap_line(const struct sim *s, int species, struct feasibility *f)
+{
+    char name[64], note[96];
+    const double radius = smallest(s, species);
+    const double speed = fmin(expected_speed(s), feasibility_sinking(s, species));
+    const struct species *const sp = &s->grains.species[species];
+    const double deepest =
+        DEEPEST * speed * species_duration(s, species, radius, speed) / radius;
+    snprintf(name, sizeof name, "overlap, %.32s", sp->name);
+    snprintf(note, sizeof note, "of the radius, should it collide at %.3g m/s: a warning",
+             speed);
+    feasibility_add(f, name, "1", deepest, s->run.overlap_max, false, note);
 }
 
 static void contact_lines(const struct sim *s, struct feasibility *f)
@@ -118,7 +136,7 @@ static void contact_lines(const struct sim *s, struct feasibility *f)
             continue;
         const struct species *const sp = &s->grains.species[k];
         const double rayleigh = contact_rayleigh(sp->material, radius, sp->density);
-        const double duration = species_duration(s, k, radius);
+        const double duration = species_duration(s, k, radius, expected_speed(s));
         if (isfinite(rayleigh)) {
             snprintf(name, sizeof name, "Rayleigh's step, %.32s", sp->name);
             feasibility_add(f, name, "s", s->run.dt, rayleigh, true, "0.1 to 0.3 is usual");
@@ -127,62 +145,8 @@ static void contact_lines(const struct sim *s, struct feasibility *f)
             snprintf(name, sizeof name, "a quarter of a contact, %.32s", sp->name);
             snprintf(note, sizeof note, "at %.3g m/s", expected_speed(s));
             feasibility_add(f, name, "s", s->run.dt, PART_OF_CONTACT * duration, true, note);
+            overlap_line(s, k, f);
         }
-    }
-}
-
-/* Relaxation of each species in a dense bed, the harder case. */
-static void relaxation_lines(const struct sim *s, struct feasibility *f)
-{
-    char name[64];
-    for (int k = 0; k < s->grains.n_species; k++) {
-        const int i = grain_of_species(s, k);
-        if (i < 0)
-            continue;
-        const double speed = flow_most(&s->flow) / 0.4;
-        const double d = drag_grains_diameter(s, i);
-        const struct drag_point p = {
-            .eps = 0.4,
-            .re = drag_reynolds(0.4, speed, d, s->fluid.rho, s->fluid.mu),
-            .d = d,
-            .y = 1.0,
-            .grain = &s->coupling.drag_of.kind[k]};
-        const double kappa = drag_kappa(&p, s->fluid.mu);
-        if (!(kappa > 0.0))
-            continue;
-        snprintf(name, sizeof name, "drag relaxation, %.32s", s->grains.species[k].name);
-        feasibility_add(f, name, "s", s->fluid.dt, s->grains.mass[i] / kappa,
-                        !s->coupling.implicit,
-                        s->coupling.implicit ? "implicit: accuracy only, at porosity 0.4"
-                                             : "explicit, at porosity 0.4");
-    }
-}
-
-/* Grains much lighter than the fluid: the pressure gradient that moves them is that of the step before,
- * which two-way coupling bears only while the grains in a cell are heavier than what the fluid there
- * makes them follow: rho_s/rho_f > eps (1 - eps), eps the mean porosity. Found by ./run.sh extremes
- * on suspensions of 1.5, 8 and 20 %: edges at 1.10, 0.99 and 1.06 of it, hence the margin. The step
- * enters little: with a quarter and four times of it the edge of the 8 % was at 0.86 and 0.83. */
-#define LIGHTEST 1.25
-
-static void lightness_lines(const struct sim *s, struct feasibility *f)
-{
-    const struct grains *const g = &s->grains;
-    const double box = s->domain.size[0] * s->domain.size[1] * s->domain.size[2];
-    double solid = 0.0;
-    if (!s->fluid.equation || s->coupling.ways != 2)
-        return;
-    for (int i = 0; i < g->n; i++)
-        solid += g->volume[i] / box;
-    for (int k = 0; k < g->n_species; k++) {
-        const struct species *const sp = &g->species[k];
-        char name[64];
-        if (sp->frozen || sp->density >= s->fluid.rho || !(solid > 0.0))
-            continue;
-        snprintf(name, sizeof name, "lightness, %.32s", sp->name);
-        feasibility_add(f, name, "1", LIGHTEST * solid * (1.0 - solid),
-                        sp->density / s->fluid.rho, true,
-                        "1.25 eps (1 - eps) against the ratio of densities");
     }
 }
 
@@ -214,9 +178,9 @@ void feasibility_fill(const struct sim *s, struct feasibility *f)
     contact_lines(s, f);
     if (s->fluid.exists) {
         if (s->grains.n > 0)
-            relaxation_lines(s, f);
+            feasibility_relaxation(s, f);
         fluid_feasibility(s, f);
-        lightness_lines(s, f);
+        feasibility_coupling(s, f);
         grid_lines(s, f);
     }
 }

@@ -29,6 +29,12 @@ struct scene;
 /* s; the shortest limit of the contact loop: Rayleigh's step, or a quarter of the duration of a
  * contact at the highest expected speed; INFINITY if nothing touches. */
 double feasibility_grain_limit(const struct sim *s);
+/* The first grain of a species that moves, or -1. */
+int feasibility_grain(const struct sim *s, int species);
+/* Of grains and fluid together (feasibility_coupling.c). */
+void feasibility_relaxation(const struct sim *s, struct feasibility *f);
+void feasibility_coupling(const struct sim *s, struct feasibility *f);
+double feasibility_sinking(const struct sim *s, int species); /* m/s; INFINITY in no fluid */
 void feasibility_fill(const struct sim *s, struct feasibility *f);
 void feasibility_print(FILE *out, const struct sim *s, const struct feasibility *f);
 /* Puts broken binding limits on the scene's list of errors. */

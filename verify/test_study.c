@@ -81,9 +81,14 @@ static void fronts(void)
     const double error[] = {0.2, 0.9, 0.4, 0.013, 0.7, 0.001, 0.013, 0.2};
     const bool want[] = {true, false, true, true, true, false, false, false};
     bool front[8];
-    pareto_front(8, cost, error, front);
+    pareto_front(8, NULL, cost, error, front);
     for (int i = 0; i < 8; i++)
         check(front[i] == want[i], "Pareto front, point %d", i);
+    const int group[] = {5, 5, 5, 5, 9, 9, 9, 9};
+    const bool in_group[] = {true, true, true, true, true, false, true, true};
+    pareto_front(8, group, cost, error, front);
+    for (int i = 0; i < 8; i++)
+        check(front[i] == in_group[i], "Pareto front of its group, point %d", i);
     check_rel(median((const double[]){7.1, 1.3, 2.9}, 3), 2.9, 0.0, "median of three");
     check_rel(median((const double[]){7.1, 1.3, 2.9, 3.3}, 4), 3.1, 1e-15, "of four");
     check(isnan(median(NULL, 0)), "of none");

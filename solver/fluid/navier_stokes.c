@@ -301,6 +301,11 @@ static void solve_porous(struct sim *s)
         pressure_solve(ns->pressure, ns->now, 0.0, ns->rhs, ns->dp, ns->tolerance, floor);
     ns->iterations = f->iterations = r.iterations;
     f->residual = r.start > 0.0 ? r.end / r.start : 0.0;
+    if (!isfinite(most) || !isfinite(r.start))
+        die(EXIT_UNSTABLE,
+            "the flow has blown up at t = %.9g s, step %ld: its divergence is %.3g 1/s; take a "
+            "shorter fluid.dt (./run.sh check names its limits)",
+            s->t, s->step, most);
     if (!r.converged)
         die(EXIT_UNSTABLE,
             "the pressure has not converged at t = %.9g s, step %ld: residual %.3g of its "

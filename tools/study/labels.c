@@ -39,9 +39,8 @@ static double overlap(const double a[4], const double b[4])
 /* Square pixels of a box that are taken, or out of the axes. */
 static double covered(const struct labels *l, const double box[4])
 {
-    const double frame[4] = {
-        l->pixels[0] * l->frame[0], l->pixels[0] * l->frame[1], l->pixels[1] * l->frame[2],
-        l->pixels[1] * l->frame[3]};
+    const double frame[4] = {l->pixels[0] * l->frame[0], l->pixels[0] * l->frame[1],
+                             l->pixels[1] * l->frame[2], l->pixels[1] * l->frame[3]};
     double sum = (box[1] - box[0]) * (box[3] - box[2]) - overlap(box, frame);
     for (int i = 0; i < l->n; i++)
         sum += overlap(box, l->taken[i]);

@@ -129,7 +129,8 @@ static bool read_limit(const char *line, struct limit *l)
         if (at[-1] == ' ' &&
             sscanf(at, "%lf %31s %lf %31s %lf", &used, unit[0], &limit, unit[1], &ratio) == 5 &&
             strcmp(unit[0], unit[1]) == 0 &&
-            (strcmp(unit[0], "s") == 0 || strncmp(line, "lightness", 9) == 0)) {
+            (strcmp(unit[0], "s") == 0 || strncmp(line, "lightness", 9) == 0 ||
+             strncmp(line, "overlap", 7) == 0)) {
             int n = (int)(at - line);
             while (n > 0 && line[n - 1] == ' ')
                 n--;

@@ -140,14 +140,22 @@ static bool size_ratio(struct expansion *e)
     return true;
 }
 
-/* fcc: four grains to a cell of edge a, 1 - eps = 4 (pi/6) (d/a)^3 */
+/* fcc: four grains to a cell of edge a, 1 - eps = 4 (pi/6) (d/a)^3. The lowest lie a/4 above the cell's
+ * side: sides that are walls stand off until they do not cut into grains. */
 static void pack(struct expansion *e, const struct species_view *sp, double eps)
 {
     const double a = sp->d * cbrt(4.0 * pi / 6.0 / (1.0 - eps));
     put(e, "grains %s.fill=unit_cell", sp->name);
     put(e, "grains %s.cell=fcc", sp->name);
     put(e, "grains %s.spacing=%.15g m", sp->name, a);
-    put(e, "domain.size=%.15g %.15g %.15g m", 2.0 * a, 2.0 * a, 2.0 * a);
+    double gap[3];
+    for (int k = 0; k < 3; k++)
+        gap[k] = e->v.periodic[k] ? 0.0 : fmax(0.0, 0.5 * sp->d - 0.25 * a);
+    put(e, "grains %s.from=%.15g %.15g %.15g m", sp->name, gap[0], gap[1], gap[2]);
+    put(e, "grains %s.to=%.15g %.15g %.15g m", sp->name, 2.0 * a + gap[0], 2.0 * a + gap[1],
+        2.0 * a + gap[2]);
+    put(e, "domain.size=%.15g %.15g %.15g m", 2.0 * (a + gap[0]), 2.0 * (a + gap[1]),
+        2.0 * (a + gap[2]));
     if (e->v.fluid)
         put(e, "domain.cells=2 2 2");
 }

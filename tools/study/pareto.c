@@ -3,13 +3,13 @@
 #include <string.h>
 #include "study.h"
 
-void pareto_front(int n, const double *cost, const double *error, bool *front)
+void pareto_front(int n, const int *group, const double *cost, const double *error, bool *front)
 {
     for (int i = 0; i < n; i++) {
         front[i] = isfinite(cost[i]) && isfinite(error[i]);
         for (int k = 0; k < n && front[i]; k++)
-            if (k != i && isfinite(cost[k]) && isfinite(error[k]) && cost[k] <= cost[i] &&
-                error[k] <= error[i] &&
+            if (k != i && (!group || group[k] == group[i]) && isfinite(cost[k]) &&
+                isfinite(error[k]) && cost[k] <= cost[i] && error[k] <= error[i] &&
                 (cost[k] < cost[i] || error[k] < error[i] || k < i)) /* of equals the first */
                 front[i] = false;
     }

@@ -218,9 +218,10 @@ double result_number(const struct result *r, const char *key); /* NaN if there i
 void result_free(struct result *r);
 
 /* ---- pareto.c ---- */
-/* Marks what no other beats in both: less cost and no more error, or less error at no more cost.
- * What is not finite is never on the front. */
-void pareto_front(int n, const double *cost, const double *error, bool *front);
+/* Marks what no other of its group (NULL: all are one) beats in both: less cost and no more error, or
+ * less error at no more cost. What is not finite is never on the front. */
+void pareto_front(int n, const int *group, const double *cost, const double *error,
+                  bool *front);
 double median(const double *x, int n); /* NaN of none */
 /* What three values f on steps h (coarse to fine) tend to as h goes to 0 [Richardson11]: the
  * order is fitted, and must lie within 0.3 and 6, else the finest is taken as it is. *doubt:

@@ -19,6 +19,10 @@ struct trade {
     enum against against;
     const char *against_text;
     enum plan plan;
+    int per; /* axis of a condition: each of its values has its own finest variant, front and
+                recommended set-up; -1: none */
+    int mean; /* axis of repetitions (a seed): what is compared is the mean over it, and so is the cost;
+                 -1: none */
     bool confirm;
     enum cost_by by; /* what `cost`, `low` and `high` are */
     double within;   /* NaN: not asked for */
@@ -26,16 +30,28 @@ struct trade {
     double *error, *cost, *wall, *core, *memory, *low, *high; /* s per simulated
                                            s, or MiB; wall: s of a run */
     double *value;                                            /* n x n_quantities */
+    double *scatter; /* standard error of a mean over the
+                                           quantity itself, the largest */
     bool *front;
-    double truth[MOST_QUANTITIES], doubt[MOST_QUANTITIES], order[MOST_QUANTITIES]; /* finest */
-    int best; /* index of the recommended variant, or -1 */
+    struct truth *truth; /* of AGAINST_FINEST: trade_groups x n_quantities */
+    int *best;           /* of each group: index of the recommended variant, or -1 */
 };
+
+/* What the finest variant gives. */
+struct truth {
+    double value, scatter; /* scatter: standard error of a mean */
+    double doubt, order;   /* of Richardson's estimate, or NaN */
+};
+
+int trade_groups(const struct trade *t);                   /* values of the condition, or 1 */
+int trade_group(const struct trade *t, const int *choice); /* which of them */
 
 void trade_costs(struct trade *t);  /* medians and spreads of all variants */
 void trade_errors(struct trade *t); /* after trade_costs; ends the program (2) where what is
                                        compared is not there */
 /* Runs what the plan asks for. */
 void trade_run_plan(struct trade *t);
+const char *trade_cost_unit(const struct trade *t);
 void trade_write(const struct trade *t); /* trade.csv, trade.nc */
 void trade_draw(const struct trade *t);  /* trade.png */
 void trade_free(struct trade *t);

@@ -6,6 +6,13 @@
 #include "study_nc.h"
 #include "trade.h"
 
+const char *trade_cost_unit(const struct trade *t)
+{
+    return t->by == BY_MEMORY ? "MiB"
+           : t->by == BY_CORE ? "core s per simulated s"
+                              : "s per simulated s";
+}
+
 static void write_csv(const struct trade *t)
 {
     const struct study *const s = &t->study;
@@ -20,8 +27,9 @@ static void write_csv(const struct trade *t)
     }
     for (int q = 0; q < t->n_quantities; q++)
         fprintf(to, ",%s", t->quantity[q]);
-    fprintf(to, ",error,wall_per_simulated,wall_least,wall_most,core_per_simulated,wall,memory,"
-                "runs,front,end,reason,command\n");
+    fprintf(to,
+            ",error,scatter,cost,cost_least,cost_most,cost_of,core_per_simulated,wall,memory,"
+            "runs,front,recommended,end,reason,command\n");
     for (int i = 0; i < s->n; i++) {
         const struct variant *const v = s->variant[i];
         fprintf(to, "%d", v->number);
@@ -31,9 +39,10 @@ static void write_csv(const struct trade *t)
         }
         for (int q = 0; q < t->n_quantities; q++)
             fprintf(to, ",%.10g", t->value[i * t->n_quantities + q]);
-        fprintf(to, ",%.10g,%.6g,%.6g,%.6g,%.6g,%.6g,%.0f,%d,%d,%s,", t->error[i], t->cost[i],
-                t->low[i], t->high[i], t->core[i], t->wall[i], t->memory[i], v->n_runs,
-                t->front[i], ending_name[v->ending]);
+        fprintf(to, ",%.10g,%.3g,%.6g,%.6g,%.6g,%s,%.6g,%.6g,%.0f,%d,%d,%d,%s,", t->error[i],
+                t->scatter[i], t->cost[i], t->low[i], t->high[i], trade_cost_unit(t),
+                t->core[i], t->wall[i], t->memory[i], v->n_runs, t->front[i],
+                t->best[trade_group(t, v->choice)] == i, ending_name[v->ending]);
         csv_field(to, v->reason);
         fputc(',', to);
         csv_field(to, v->command);
@@ -49,14 +58,17 @@ static void write_nc(const struct trade *t)
 {
     const struct study *const s = &t->study;
     const size_t n = (size_t)s->n;
+    const char *const unit = t->by == BY_MEMORY ? "MiB" : "1"; /* s per s */
     const struct {
         const char *name, *unit, *long_name;
         const double *x;
     } list[] = {
         {"error", "1", "error against what the study compares with", t->error},
-        {"cost", "1", "wall time per simulated time, median of the runs", t->cost},
-        {"cost_least", "1", "wall time per simulated time, quickest run", t->low},
-        {"cost_most", "1", "wall time per simulated time, slowest run", t->high},
+        {"scatter", "1", "standard error of the mean over repetitions, over the mean",
+         t->scatter},
+        {"cost", unit, "what the study counts as cost, median of the runs", t->cost},
+        {"cost_least", unit, "cost of the cheapest run", t->low},
+        {"cost_most", unit, "cost of the dearest run", t->high},
         {"core", "1", "core time per simulated time, median of the runs", t->core},
         {"wall", "s", "wall time of a run, median", t->wall},
         {"memory", "byte", "most memory that was resident", t->memory},

@@ -68,7 +68,12 @@ static void send_points(FILE *to, const struct trade *t, int axis)
     }
 }
 
-/* In order of cost. */
+static int group_of(const struct trade *t, int i)
+{
+    return trade_group(t, t->study.variant[i]->choice);
+}
+
+/* By group, then in order of cost. */
 static int front_order(const struct trade *t, int *order)
 {
     int n = 0;
@@ -76,7 +81,10 @@ static int front_order(const struct trade *t, int *order)
         if (!t->front[i] || !shown(t, i))
             continue;
         int k = n++;
-        for (; k > 0 && t->cost[order[k - 1]] > t->cost[i]; k--)
+        for (; k > 0 && (group_of(t, order[k - 1]) > group_of(t, i) ||
+                         (group_of(t, order[k - 1]) == group_of(t, i) &&
+                          t->cost[order[k - 1]] > t->cost[i]));
+             k--)
             order[k] = order[k - 1];
         order[k] = i;
     }
@@ -87,7 +95,9 @@ static void send_front(FILE *to, const struct trade *t, const int *order, int n)
 {
     fprintf(to, "$front << END\n");
     for (int k = 0; k < n; k++)
-        fprintf(to, "%.10g %.10g\n", t->cost[order[k]], error_shown(t, order[k]));
+        fprintf(to, "%s%.10g %.10g\n",
+                k > 0 && group_of(t, order[k]) != group_of(t, order[k - 1]) ? "\n" : "",
+                t->cost[order[k]], error_shown(t, order[k]));
     fprintf(to, "NaN NaN\nEND\n");
 }
 

@@ -1,7 +1,7 @@
 /* trade_plan.c - which variants are run.
  *
  * grid   all of them
- * one    the first value on every axis, and from there each axis alone
+ * one    the first value on every axis, and from there each axis alone (at each value of a condition)
  * front  a part of the grid, chosen so that the Pareto front is found with few runs: first those of
  *        `one`; then log(error) and log(cost) are taken as sums of one effect per value and axis,
  *        fitted by least squares (by the pseudo-inverse [GolubReinsch70] where they do not
@@ -37,16 +37,32 @@ static struct variant *wanted(struct trade *t, const int *choice)
     return v;
 }
 
+/* With all its repetitions. */
+static void wanted_all(struct trade *t, const int *choice)
+{
+    int each[MOST_AXES];
+    memcpy(each, choice, sizeof each);
+    for (int k = 0; k < (t->mean < 0 ? 1 : t->study.axis[t->mean].n); k++) {
+        if (t->mean >= 0)
+            each[t->mean] = k;
+        wanted(t, each);
+    }
+}
+
 static void make_one(struct trade *t)
 {
-    int choice[MOST_AXES] = {0};
-    wanted(t, choice);
-    for (int a = 0; a < t->study.n_axes; a++) {
-        for (int i = 1; i < t->study.axis[a].n; i++) {
-            choice[a] = i;
-            wanted(t, choice);
+    for (int group = 0; group < trade_groups(t); group++) {
+        int choice[MOST_AXES] = {0};
+        if (t->per >= 0)
+            choice[t->per] = group;
+        wanted_all(t, choice);
+        for (int a = 0; a < t->study.n_axes; a++) {
+            for (int i = 1; a != t->per && a != t->mean && i < t->study.axis[a].n; i++) {
+                choice[a] = i;
+                wanted_all(t, choice);
+            }
+            choice[a] = a == t->per ? group : 0;
         }
-        choice[a] = 0;
     }
 }
 
@@ -54,17 +70,19 @@ static void make_one(struct trade *t)
 static void make_finest(struct trade *t)
 {
     const struct study *const s = &t->study;
-    int choice[MOST_AXES], along = -1;
-    for (int a = 0; a < s->n_axes; a++) {
-        choice[a] = s->axis[a].n - 1;
-        if (along < 0 && !s->axis[a].words && s->axis[a].n >= 3 &&
-            s->axis[a].kind != AXIS_THREADS)
-            along = a;
-    }
-    wanted(t, choice);
-    for (int k = 2; along >= 0 && k <= 3; k++) {
-        choice[along] = s->axis[along].n - k;
-        wanted(t, choice);
+    for (int group = 0; group < trade_groups(t); group++) {
+        int choice[MOST_AXES], along = -1;
+        for (int a = 0; a < s->n_axes; a++) {
+            choice[a] = a == t->per ? group : s->axis[a].n - 1;
+            if (along < 0 && a != t->per && a != t->mean && !s->axis[a].words &&
+                s->axis[a].n >= 3 && s->axis[a].kind != AXIS_THREADS)
+                along = a;
+        }
+        wanted_all(t, choice);
+        for (int k = 2; along >= 0 && k <= 3; k++) {
+            choice[along] = s->axis[along].n - k;
+            wanted_all(t, choice);
+        }
     }
 }
 
@@ -151,8 +169,10 @@ static int add_promising(struct trade *t)
         double *const guess[2] = {xalloc((size_t)total, sizeof(double)),
                                   xalloc((size_t)total, sizeof(double))};
         bool *const front = xalloc((size_t)total, sizeof *front);
+        int *const group = xalloc((size_t)total, sizeof *group);
         int k = 0;
         do {
+            group[k] = trade_group(t, choice);
             fill_row(s, choice, row);
             for (int e = 0; e < 2; e++) {
                 guess[e][k] = 0.0;
@@ -161,18 +181,19 @@ static int add_promising(struct trade *t)
             }
             k++;
         } while (next_choice(s, choice));
-        pareto_front(total, guess[0], guess[1], front);
+        pareto_front(total, group, guess[0], guess[1], front);
         memset(choice, 0, sizeof choice);
         k = 0;
         do {
             if (front[k++] && !exists(s, choice) && added < MOST_BATCH) {
-                wanted(t, choice);
+                wanted_all(t, choice);
                 added++;
             }
         } while (next_choice(s, choice));
         xfree(guess[0]);
         xfree(guess[1]);
         xfree(front);
+        xfree(group);
     }
     gsl_vector_free(effect[0]);
     gsl_vector_free(effect[1]);

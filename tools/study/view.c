@@ -8,6 +8,9 @@
 static const struct key wanted[] = {
     {"modules", "fluid", KEY_TEXT, "", "", "none", ""},
     {"modules", "contact", KEY_TEXT, "", "", "none", ""},
+    {"domain", "x", KEY_TEXT, "", "", "", ""},
+    {"domain", "y", KEY_TEXT, "", "", "", ""},
+    {"domain", "z", KEY_TEXT, "", "", "", ""},
     {"domain", "size", KEY_VECTOR, "m", "(0, inf)", "1 1 1 m", ""},
     {"domain", "cells", KEY_CELLS, "", "[0, 1000000]", "0 0 0", ""},
     {"domain", "gravity", KEY_VECTOR, "m s-2", "(-inf, inf)", "0 0 -9.81 m/s2", ""},
@@ -65,6 +68,9 @@ struct view view_read(const char *path, char *const *overrides, int n)
     v.size[0] = size.x;
     v.size[1] = size.y;
     v.size[2] = size.z;
+    static const char *const sides[] = {"x", "y", "z"};
+    for (int a = 0; a < 3; a++)
+        v.periodic[a] = scene_word(s, "domain", NULL, sides[a], "periodic");
     v.gravity = v3_norm(scene_vector(s, "domain", NULL, "gravity"));
     scene_cells(s, "domain", NULL, "cells", v.cells);
     read_species(&v);

@@ -23,6 +23,7 @@ struct view {
     double rho, mu, fluid_dt, grain_dt; /* 0: not given, or auto */
     double end, inflow;
     double size[3];
+    bool periodic[3];
     double gravity; /* m/s2 */
     int cells[3];
 };
