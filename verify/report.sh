@@ -110,7 +110,7 @@ studies() {
         name=$(basename "$out" .out)
         file=scenes/studies/$name.study
         echo "<h3>$name</h3><p>$(sed -n '/^#/!q; s/^# *//p' "$file" | escape)</p>"
-        grep -E '^(the cheapest|no variant|the least error|edge:|[0-9]+ points:|the limits of check|BROKEN)' "$out" |
+        grep -E '^(edge:|[0-9]+ points:|the limits of check|BROKEN)|(^|: )(the cheapest|no variant|the least error)' "$out" |
             escape | sed 's|.*|<p><b>&</b></p>|'
         for picture in "$from/studies/$name"/*/{trade,extremes}.png; do
             [ -e "$picture" ] && picture "$picture" "$name: $(basename "$picture" .png)"

@@ -68,7 +68,7 @@ studies() {
             *) echo "  $name: FAIL $(tail -n 1 "$tmp/log")"; status=1 ;;
         esac
         echo $((SECONDS - begin)) > "$keep/studies/$name.seconds"
-        grep -E '^(==|the cheapest|no variant|edge:|[0-9]+ points)' "$keep/studies/$name.out" | sed "s/^/  /"
+        grep -E '^(==|edge:|[0-9]+ points)|(^|: )(the cheapest|no variant)' "$keep/studies/$name.out" | sed "s/^/  /"
         echo "  $name took $((SECONDS - begin)) s"
     done
     return $status
