@@ -11,12 +11,11 @@
 static double kappa_at(const struct sim *s, int grain, double eps, double speed)
 {
     const double d = drag_grains_diameter(s, grain);
-    const struct drag_point p = {
-        .eps = eps,
-        .re = drag_reynolds(eps, speed, d, s->fluid.rho, s->fluid.mu),
-        .d = d,
-        .y = 1.0,
-        .grain = &s->coupling.drag_of.kind[s->grains.kind[grain]]};
+    const struct drag_point p = {.eps = eps,
+                                 .re = drag_reynolds(eps, speed, d, s->fluid.rho, s->fluid.mu),
+                                 .d = d,
+                                 .y = 1.0,
+                                 .grain = &s->coupling.drag_of.kind[s->grains.kind[grain]]};
     return drag_kappa(&p, s->fluid.mu);
 }
 
@@ -68,11 +67,12 @@ static double share_of_cell(const struct sim *s, int grain)
  * edges at 0.049, 0.0102, 0.0029, 0.00085 for cells of 1, 2, 4, 8 d, which is 0.055 e^0.6; wider
  * answers of porosity/ bear more. The step enters little: with a quarter and four times of it the edges
  * moved by 20 %. Added mass counts as the grain's own, for its coupling is implicit. */
-#define LIGHTEST 1.25
+#define LIGHTEST       1.25
 #define LIGHTEST_ALONE 0.07
 #define LIGHTEST_POWER 0.6
 
-static void lightness_line(const struct sim *s, int species, double solid, struct feasibility *f)
+static void lightness_line(const struct sim *s, int species, double solid,
+                           struct feasibility *f)
 {
     const struct species *const sp = &s->grains.species[species];
     const int i = feasibility_grain(s, species);
@@ -100,7 +100,8 @@ static void stress_line(const struct sim *s, int species, double solid, struct f
     if (i < 0 || !s->fluid.implicit_viscosity || !(s->coupling.forces.viscous > 0.0) ||
         !isfinite(viscous))
         return;
-    snprintf(name, sizeof name, "viscous force on grains, %.32s", s->grains.species[species].name);
+    snprintf(name, sizeof name, "viscous force on grains, %.32s",
+             s->grains.species[species].name);
     feasibility_add(f, name, "s", s->fluid.dt,
                     STRESS_SHARE * viscous / (solid + share_of_cell(s, i)), true,
                     "explicit; forces = -viscous does without");
