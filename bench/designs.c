@@ -3,8 +3,12 @@
  *   designs SCENE [section.key=value ...]; OMP_NUM_THREADS threads
  *   halo sums      silt's own: sums of a run for its grains and its halo, gathered in order
  *   own arrays     each thread adds into an array of all grains, which are added up at the end; runs go
- *                  to whoever is free: other bits each time, the fastest of those that we know
+ *                  to whoever is free: other bits each time
+ *   atomics        sums of a run for its grains and its halo, added to one array of all grains by
+ *                  atomic additions; runs go to whoever is free: other bits each time
  *   colours        runs that share no grain side by side, one colour after the other: same bits
+ *   slabs          slabs across the longest side of the box, thicker than a pair is long: those of even
+ *                  number side by side, then the odd ones, straight into one array: same bits
  *   both sides     each contact worked for either grain, with a memory of its own: same bits
  * All use the same blocks, laws and gathering of bodies. Medians of rounds in turns: of the processor's
  * time on one thread, of the clock on more. Walls are left out. */
@@ -22,15 +26,29 @@
 #include "../solver/sim.h"
 #include "../solver/step.h"
 
-enum { DESIGNS = 4, ROUNDS = 15, COLOURS = 64 };
+enum design { HALO_SUMS, OWN_ARRAYS, ATOMICS, COLOURS, SLABS, BOTH_SIDES, DESIGNS };
+enum { ROUNDS = 15 };
+
+static const struct {
+    const char *name;
+    bool same_bits; /* on any number of threads */
+} designs[DESIGNS] = {[HALO_SUMS] = {"halo sums (silt)", true},
+                      [OWN_ARRAYS] = {"own arrays", false},
+                      [ATOMICS] = {"atomics", false},
+                      [COLOURS] = {"colours", true},
+                      [SLABS] = {"slabs", true},
+                      [BOTH_SIDES] = {"both sides", true}};
 
 struct bench {
     struct sim *s;
     int threads;
     struct pack *packs[DESIGNS]; /* of each run, as the design wants it */
     struct sums **array;         /* per thread, of all grains */
+    struct sums **own;           /* per thread, of a run and its halo */
     struct report *report;       /* per thread */
     int colours, *colour;        /* of each run */
+    int slabs;
+    int *halo_begin, *halo; /* grains of each run's halo */
 };
 
 static double now(int threads)
@@ -122,6 +140,82 @@ static void both_sides(const struct sim *s, struct pack *packs)
     xfree(place);
 }
 
+/* Which slab of `slabs` across axis a. */
+static int slab_of(const struct sim *s, int i, int a, int slabs)
+{
+    const vec3 x = domain_wrap(&s->domain, s->grains.pos[i]);
+    const double at = (a == 0 ? x.x : a == 1 ? x.y : x.z) / s->domain.size[a];
+    const int slab = (int)(at * slabs);
+    return slab < 0 ? 0 : slab >= slabs ? slabs - 1 : slab;
+}
+
+/* The contacts of each slab in the order of the runs: those of its grains with each other and with those
+ * of the slab behind, so that a slab touches the grains of two. Their number is even: the last may touch
+ * those of the first. */
+static void cut_slabs(struct bench *b, struct pack *packs)
+{
+    const struct sim *const s = b->s;
+    const int rows = s->neighbours.rows;
+    int axis = 0;
+    double largest = 0.0;
+    for (int a = 1; a < 3; a++)
+        axis = s->domain.size[a] > s->domain.size[axis] && s->domain.periodic[a] ? a : axis;
+    for (int i = 0; i < s->grains.n; i++)
+        largest = fmax(largest, 2.0 * s->grains.radius[i]);
+    b->slabs =
+        (int)(s->domain.size[axis] / (largest + s->neighbours.inner + s->neighbours.reach)) /
+        2 * 2;
+    if (b->slabs < 2 || b->slabs > s->neighbours.runs)
+        b->slabs = s->neighbours.runs < 2 ? 1 : s->neighbours.runs / 2 * 2;
+    int *const count = xalloc((size_t)b->slabs, sizeof *count);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int run = 0; run < s->neighbours.runs; run++) {
+            const struct pack *const own = &s->contacts->pack[run];
+            for (int k = 0; k < own->n; k++) {
+                const struct pack_block *const from = pack_block(own, k / TOUCH, rows);
+                const int m = k % TOUCH;
+                const int si = slab_of(s, from->i[m], axis, b->slabs);
+                const int sj = slab_of(s, from->j[m], axis, b->slabs);
+                const int slab = sj == si || sj == (si + 1) % b->slabs ? si : sj;
+                const int at = count[slab]++;
+                if (pass == 0)
+                    continue;
+                struct pack_block *const to = pack_block(&packs[slab], at / TOUCH, rows);
+                set_lane(to, at % TOUCH, from, m, rows);
+                to->to[at % TOUCH] = from->j[m] - slab * RUN;
+            }
+        }
+        for (int slab = 0; slab < b->slabs; slab++) {
+            if (pass == 0)
+                packs[slab] = room_for(count[slab], rows);
+            else
+                pad(&packs[slab], rows);
+            count[slab] = 0;
+        }
+    }
+    xfree(count);
+}
+
+/* Packs as silt has them, with the grains of the halos by name. */
+static void list_halos(struct bench *b, struct pack *packs)
+{
+    const struct neighbours *const nb = &b->s->neighbours;
+    b->halo_begin = nb->halo_begin;
+    b->halo = xalloc((size_t)nb->halo_begin[nb->runs] + 1, sizeof *b->halo);
+    for (int run = 0; run < nb->runs; run++) {
+        const struct pack *const own = &b->s->contacts->pack[run];
+        packs[run] = room_for(own->n, nb->rows);
+        for (int k = 0; k < own->n; k++) {
+            const struct pack_block *const from = pack_block(own, k / TOUCH, nb->rows);
+            const int m = k % TOUCH;
+            set_lane(pack_block(&packs[run], k / TOUCH, nb->rows), m, from, m, nb->rows);
+            if (from->to[m] >= RUN)
+                b->halo[nb->halo_begin[run] + from->to[m] - RUN] = from->j[m];
+        }
+        pad(&packs[run], nb->rows);
+    }
+}
+
 /* Greedy: the first colour that no run with a grain in common has. */
 static void colour_runs(struct bench *b)
 {
@@ -148,16 +242,34 @@ static void colour_runs(struct bench *b)
     xfree(used);
 }
 
+/* Works a pack; `sums` are those of grain `run` * RUN and on. */
 static void work(struct bench *b, int run, struct sums *sums)
 {
     struct sim *const s = b->s;
-    const int first = run * RUN;
-    const struct target to = {
-        .first = first, .sums = sums, .report = &b->report[omp_get_thread_num()], .time = s->t};
+    const struct target to = {.first = run * RUN,
+                              .sums = sums,
+                              .report = &b->report[omp_get_thread_num()],
+                              .time = s->t};
     struct block block;
     block.kept = NULL;
-    shape.path->pairs(s, &block, &s->neighbours.pairs.active[s->neighbours.pairs.begin[first]],
-                      s->contacts->pack[run].n, &to);
+    shape.path->pairs(s, &block, s->neighbours.pairs.active, s->contacts->pack[run].n, &to);
+}
+
+/* By atomic additions, from the sums of a run and its halo. */
+static void scatter(const struct bench *b, int run, const struct sums *own)
+{
+    const int n = b->s->grains.n, first = run * RUN;
+    const int halo = b->halo_begin[run + 1] - b->halo_begin[run];
+    for (int k = 0; k < RUN + halo; k++) {
+        if (k < RUN && first + k >= n)
+            continue;
+        const int i = k < RUN ? first + k : b->halo[b->halo_begin[run] + k - RUN];
+        double *const to = (double *)&b->array[0][i].both;
+        for (int c = 0; c < 8; c++)
+            if (c % 4 != 3)
+#pragma omp atomic
+                to[c] += own[k].both[c];
+    }
 }
 
 static void set_force(struct grains *g, int i, struct sums sum)
@@ -165,57 +277,109 @@ static void set_force(struct grains *g, int i, struct sums sum)
     sums_part(sum.both, &g->force[i], &g->torque[i]);
 }
 
-static void once(struct bench *b, int design)
+/* Forces out of the first array, which is cleared. */
+static void gather(struct bench *b)
 {
-    struct sim *const s = b->s;
-    struct grains *const g = &s->grains;
-    const int runs = s->neighbours.runs;
-#pragma omp parallel
-    {
-        struct sums *const mine = b->array[omp_get_thread_num()];
-        switch (design) {
-        case 0:
-            contact_loop(s, s->t, false, false);
-            motion_forces(s);
-            break;
-        case 1:
+    struct grains *const g = &b->s->grains;
+#pragma omp for schedule(static)
+    for (int i = 0; i < g->n; i++) {
+        set_force(g, i, b->array[0][i]);
+        b->array[0][i] = (struct sums){0};
+    }
+}
+
+static void gather_all(struct bench *b)
+{
+    struct grains *const g = &b->s->grains;
+#pragma omp for schedule(static)
+    for (int i = 0; i < g->n; i++) {
+        struct sums sum = {0};
+        for (int t = 0; t < b->threads; t++) {
+            sum.both += b->array[t][i].both;
+            b->array[t][i] = (struct sums){0};
+        }
+        set_force(g, i, sum);
+    }
+}
+
+static void own_arrays(struct bench *b)
+{
+    struct sums *const mine = b->array[omp_get_thread_num()];
 #pragma omp for schedule(dynamic)
-            for (int run = 0; run < runs; run++)
-                work(b, run, mine + (size_t)run * RUN);
+    for (int run = 0; run < b->s->neighbours.runs; run++)
+        work(b, run, mine + (size_t)run * RUN);
+    gather_all(b);
+}
+
+static void atomics(struct bench *b)
+{
+    const int *const halo = b->halo_begin;
+    struct sums *const own = b->own[omp_get_thread_num()];
+#pragma omp for schedule(dynamic)
+    for (int run = 0; run < b->s->neighbours.runs; run++) {
+        memset(own, 0, (size_t)(RUN + halo[run + 1] - halo[run]) * sizeof *own);
+        work(b, run, own);
+        scatter(b, run, own);
+    }
+    gather(b);
+}
+
+static void colours(struct bench *b)
+{
+    for (int colour = 0; colour < b->colours; colour++) {
 #pragma omp for schedule(static)
-            for (int i = 0; i < g->n; i++) {
-                struct sums sum = {0};
-                for (int t = 0; t < b->threads; t++) {
-                    sum.both += b->array[t][i].both;
-                    b->array[t][i] = (struct sums){0};
-                }
-                set_force(g, i, sum);
-            }
-            break;
-        case 2:
-            for (int colour = 0; colour < b->colours; colour++) {
+        for (int run = 0; run < b->s->neighbours.runs; run++)
+            if (b->colour[run] == colour)
+                work(b, run, b->array[0] + (size_t)run * RUN);
+    }
+    gather(b);
+}
+
+static void slabs(struct bench *b)
+{
+    for (int odd = 0; odd < 2; odd++) {
 #pragma omp for schedule(static)
-                for (int run = 0; run < runs; run++)
-                    if (b->colour[run] == colour)
-                        work(b, run, b->array[0] + (size_t)run * RUN);
-            }
+        for (int slab = odd; slab < b->slabs; slab += 2)
+            work(b, slab, b->array[0] + (size_t)slab * RUN);
+    }
+    gather(b);
+}
+
+static void both_at_once(struct bench *b)
+{
+    struct grains *const g = &b->s->grains;
+    struct sums own[RUN + TOUCH];
 #pragma omp for schedule(static)
-            for (int i = 0; i < g->n; i++) {
-                set_force(g, i, b->array[0][i]);
-                b->array[0][i] = (struct sums){0};
-            }
-            break;
-        default: {
-            struct sums own[RUN + TOUCH];
-#pragma omp for schedule(static)
-            for (int run = 0; run < runs; run++) {
-                memset(own, 0, sizeof own);
-                work(b, run, own);
-                for (int i = run * RUN; i < g->n && i < (run + 1) * RUN; i++)
-                    set_force(g, i, own[i - run * RUN]);
-            }
-        }
-        }
+    for (int run = 0; run < b->s->neighbours.runs; run++) {
+        memset(own, 0, sizeof own);
+        work(b, run, own);
+        for (int i = run * RUN; i < g->n && i < (run + 1) * RUN; i++)
+            set_force(g, i, own[i - run * RUN]);
+    }
+}
+
+static void once(struct bench *b, enum design design)
+{
+#pragma omp parallel
+    switch (design) {
+    case HALO_SUMS:
+        contact_loop(b->s, b->s->t, false, false);
+        motion_forces(b->s);
+        break;
+    case OWN_ARRAYS:
+        own_arrays(b);
+        break;
+    case ATOMICS:
+        atomics(b);
+        break;
+    case COLOURS:
+        colours(b);
+        break;
+    case SLABS:
+        slabs(b);
+        break;
+    default:
+        both_at_once(b);
     }
 }
 
@@ -240,17 +404,29 @@ int main(int argc, char **argv)
     step_grains(s, 20);
     struct bench b = {.s = s, .threads = omp_get_max_threads()};
     const int runs = s->neighbours.runs, rows = s->neighbours.rows, n = s->grains.n;
+    int halo = 0;
+    for (int run = 0; run < runs; run++)
+        halo = s->neighbours.halo_begin[run + 1] - s->neighbours.halo_begin[run] > halo
+                   ? s->neighbours.halo_begin[run + 1] - s->neighbours.halo_begin[run]
+                   : halo;
     b.colour = xalloc((size_t)runs, sizeof *b.colour);
     b.array = xalloc((size_t)b.threads, sizeof *b.array);
+    b.own = xalloc((size_t)b.threads, sizeof *b.own);
     b.report = xalloc((size_t)b.threads, 2 * sizeof *b.report);
-    for (int t = 0; t < b.threads; t++)
+    for (int t = 0; t < b.threads; t++) {
         b.array[t] = xalloc((size_t)n + RUN, sizeof **b.array);
+        b.own[t] = xalloc((size_t)RUN + (size_t)halo, sizeof **b.own);
+    }
     for (int d = 0; d < DESIGNS; d++)
-        b.packs[d] = d == 0 ? s->contacts->pack : xalloc((size_t)runs, sizeof **b.packs);
-    for (int run = 0; run < runs; run++)
-        for (int d = 1; d < 3; d++)
-            b.packs[d][run] = direct(&b.packs[0][run], run * RUN, rows);
-    both_sides(s, b.packs[3]);
+        b.packs[d] =
+            d == HALO_SUMS ? s->contacts->pack : xalloc((size_t)runs, sizeof **b.packs);
+    for (int run = 0; run < runs; run++) {
+        b.packs[OWN_ARRAYS][run] = direct(&s->contacts->pack[run], run * RUN, rows);
+        b.packs[COLOURS][run] = direct(&s->contacts->pack[run], run * RUN, rows);
+    }
+    list_halos(&b, b.packs[ATOMICS]);
+    both_sides(s, b.packs[BOTH_SIDES]);
+    cut_slabs(&b, b.packs[SLABS]);
     colour_runs(&b);
 
     double time[DESIGNS][ROUNDS];
@@ -259,26 +435,32 @@ int main(int argc, char **argv)
     for (int r = 0; r < ROUNDS; r++)
         for (int d = 0; d < DESIGNS; d++) {
             s->contacts->pack = b.packs[d];
-            once(&b, d); /* warms up */
+            once(&b, (enum design)d); /* warms up */
             const double start = now(b.threads);
             for (int k = 0; k < repeats; k++)
-                once(&b, d);
+                once(&b, (enum design)d);
             time[d][r] = 1e9 * (now(b.threads) - start) / ((double)repeats * n);
             force[d] = s->grains.force[n / 2];
         }
-    static const char *const names[DESIGNS] = {"halo sums (silt)", "own arrays, other bits",
-                                               "colours", "both sides"};
-    printf("%-26s %8s %14s %10s\n", "forces, from slots", "threads", "ns a grain", "over silt");
-    for (int d = 0; d < DESIGNS; d++)
-        qsort(time[d], ROUNDS, sizeof **time, by_value);
+    printf("%-20s %10s %8s %12s %10s\n", "forces, from slots", "bits", "threads", "ns a grain",
+           "over silt");
+    int fastest = OWN_ARRAYS;
     for (int d = 0; d < DESIGNS; d++) {
-        printf("%-26s %8d %14.1f %10.2f\n", names[d], b.threads, time[d][ROUNDS / 2],
-               time[d][ROUNDS / 2] / time[0][ROUNDS / 2]);
+        qsort(time[d], ROUNDS, sizeof **time, by_value);
+        if (!designs[d].same_bits && time[d][ROUNDS / 2] < time[fastest][ROUNDS / 2])
+            fastest = d;
+    }
+    const double silt = time[HALO_SUMS][ROUNDS / 2];
+    for (int d = 0; d < DESIGNS; d++) {
+        printf("%-20s %10s %8d %12.1f %10.2f\n", designs[d].name,
+               designs[d].same_bits ? "the same" : "other", b.threads, time[d][ROUNDS / 2],
+               time[d][ROUNDS / 2] / silt);
         if (!(v3_norm(v3_sub(force[d], force[0])) <= 1e-9 * v3_norm(force[0]) + 1e-300))
             printf("  (other forces: %g of %g N)\n", v3_norm(v3_sub(force[d], force[0])),
                    v3_norm(force[0]));
     }
-    printf("identical bits cost %.0f %% over the fastest without; %d colours\n",
-           100.0 * (time[0][ROUNDS / 2] / time[1][ROUNDS / 2] - 1.0), b.colours);
+    printf("identical bits cost %.0f %% over the fastest without (%s); %d colours, %d slabs\n",
+           100.0 * (silt / time[fastest][ROUNDS / 2] - 1.0), designs[fastest].name, b.colours,
+           b.slabs);
     return EXIT_SUCCESS;
 }

@@ -54,10 +54,18 @@ static struct fill_region region_read(struct sim *s, struct scene *scene, const 
     return r;
 }
 
-/* m3, of a grain of diameter d; of shapes that are no spheres the bounding ones, as they find room. */
-static double solid_of(int species, double d)
+/* m3 of the region that a grain of diameter d takes: of shapes that are no spheres the bounding ones, as
+ * they find room; of discs as if they were as thick as the region. */
+static double solid_of(const struct fill_task *t, double d)
 {
-    return shape.flat ? grains_volume(species, d) : PI / 6.0 * d * d * d;
+    const double thick = t->region.to[1] - t->region.from[1];
+    return shape.flat ? 0.25 * PI * d * d * thick : PI / 6.0 * d * d * d;
+}
+
+/* m3, its own. */
+static double own_volume(const struct fill_task *t, double d)
+{
+    return shape.flat ? grains_volume(t->species, d) : PI / 6.0 * d * d * d;
 }
 
 /* The key that says how many: count, mass or porosity. */
@@ -77,6 +85,8 @@ static const char *amount_key(struct scene *scene, const char *name)
 static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key)
 {
     const double density = s->grains.species[t->species].density;
+    double (*const volume_of)(const struct fill_task *, double) =
+        key[0] == 'm' ? own_volume : solid_of;
     double solid = (double)INFINITY, sum = 0.0;
     double most = COUNT_MOST;
     if (key[0] == 'c')
@@ -85,7 +95,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
         solid = scene_real(t->scene, "grains", t->name, "mass") / density;
     else
         solid = (1.0 - scene_real(t->scene, "grains", t->name, "porosity")) * t->room;
-    const double expected = fmin(most, solid / solid_of(t->species, cbrt(t->sizes->mean_cube)));
+    const double expected = fmin(most, solid / volume_of(t, cbrt(t->sizes->mean_cube)));
     if (expected > 0.999 * COUNT_MOST) {
         scene_error(t->scene, "grains", t->name, key, "are about %.3g grains; at most %d",
                     expected, COUNT_MOST);
@@ -95,7 +105,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
     t->diameter = xalloc((size_t)capacity, sizeof *t->diameter);
     for (long k = 0; k < (long)most; k++) {
         const double d = sizes_draw(t->sizes, t->seed, t->species, k);
-        if (sum + 0.5 * solid_of(t->species, d) > solid)
+        if (sum + 0.5 * volume_of(t, d) > solid)
             break;
         if (t->n == capacity) {
             t->diameter = xrealloc(t->diameter, (size_t)capacity, 2 * (size_t)capacity,
@@ -103,7 +113,7 @@ static void draw_sizes(const struct sim *s, struct fill_task *t, const char *key
             capacity *= 2;
         }
         t->diameter[t->n++] = d * t->bounding;
-        sum += solid_of(t->species, d);
+        sum += volume_of(t, d);
     }
     if (t->n == 0 && most > 0.0)
         scene_error(t->scene, "grains", t->name, key, "is less than half a grain of %g m",
@@ -115,7 +125,7 @@ static double solid_fraction(const struct fill_task *t)
 {
     double sum = 0.0;
     for (int i = 0; i < t->n; i++)
-        sum += solid_of(t->species, t->diameter[i]);
+        sum += solid_of(t, t->diameter[i]);
     return t->room > 0.0 ? sum / t->room : (double)INFINITY;
 }
 
@@ -367,7 +377,8 @@ void fill(struct sim *s, struct scene *scene, struct fill *f)
             b.grain[i].pos.y = 0.5 * s->domain.size[1];
         for (int i = 0; i < motion.n && shape.flat; i++)
             motion.vel[i].y = motion.spin[i].x = motion.spin[i].z = 0.0;
-        if (!shape.path->turning) /* of others, walls_check tells where they reach */
+        if (!shape.path->turning &&
+            scene_errors(scene) == 0) /* of others, walls_check tells where they reach */
             fill_check(s, scene, &b, names);
         *f = (struct fill){b.n, b.grain, motion.n, motion.vel, motion.spin, motion.turn};
         b.grain = NULL;
