@@ -23,6 +23,18 @@ static void take(struct block *b, struct pack_block *p, int count, const int *sl
         memcpy(b->slot, slot, (size_t)count * sizeof *slot);
 }
 
+enum { NEAR_CACHE = 4 << 20 }; /* bytes: what a core has at hand, by the large */
+
+/* Fetches the other bodies of a block in time, where all of them are more than a core has at hand. */
+static void call(const struct sim *s, const struct pack_block *p)
+{
+    for (int c = 0; c < TOUCH; c++) {
+        const struct body *const j = &s->bodies[p->j[c]];
+        __builtin_prefetch(j);
+        __builtin_prefetch((const char *)j + sizeof *j / 2);
+    }
+}
+
 /* Distances, not yet by the nearest image, and motion of the centres, i less j. */
 void spheres_gather(const struct sim *s, struct block *b)
 {
@@ -211,10 +223,13 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     struct slots *const l = &s->neighbours.pairs;
     const struct pack *const pack = &s->contacts->pack[to->first / RUN];
     const int rows = s->neighbours.rows;
+    const bool far = (size_t)s->grains.n * sizeof *s->bodies > NEAR_CACHE;
     spheres_open(s, b, to);
     for (int from = 0; from < count; from += TOUCH) {
         struct pack_block *const p = pack_block(pack, from / TOUCH, rows);
         take(b, p, count - from < TOUCH ? count - from : TOUCH, slot + from, to->asked);
+        if (far && from + TOUCH < count)
+            call(s, pack_block(pack, from / TOUCH + 1, rows));
         spheres_gather(s, b);
         spheres_nearest(s, b);
         spheres_materials(s, b);
