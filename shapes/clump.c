@@ -3,8 +3,8 @@
  * Two clumps touch where their spheres do: each pair of spheres that overlaps is a contact, with its
  * own radii, and so is each sphere on an element of a wall. Volume, centre and inertia are those of
  * the union, each part counted once (disc_union.c), not the sum over spheres that many codes take.
- * A clump of one sphere is a sphere, to round-off. Also the template for shapes with more than one
- * contact a pair. */
+ * Where all clumps are of one sphere they go the way of spheres, to the last bit. Also the template for
+ * shapes with more than one contact a pair. */
 #include "../solver/ball_sets.h"
 #include "../solver/ball_surface.h"
 #include "../solver/bed_file.h"
@@ -338,9 +338,10 @@ static double crosswise(int species, vec3 flow)
     return 3.14159265358979323846 / area;
 }
 
-const struct shape shape = {.path = &contact_members,
+const struct shape shape = {.path = &contact_round,
                             .init = init,
                             .free = release,
+                            .overlaps = shape_spheres_overlap,
                             .points = points,
                             .balls = balls,
                             .surface = surface,

@@ -19,6 +19,8 @@
  *   contact_members  the body is a union of `balls`: each ball of one against each of the other, in the blocks
  *                    of spheres. `points` tells which come near; its id is ball of i times balls of j +
  *                    ball of j. As many overlaps as there are count; a pair of balls has its own memory.
+ *   contact_round    the first where all grains are spheres (shape_form.bounding 1), else contact_members;
+ *                    the shape has both `overlaps` and `points`.
  * Only the path that the shape names is linked.
  *
  * All functions but init and free are called from parallel loops: parameters are written in init
@@ -34,7 +36,8 @@
 
 struct wall;
 struct contact_path;
-extern const struct contact_path contact_spheres, contact_points, contact_members;
+extern const struct contact_path contact_spheres, contact_points, contact_members,
+    contact_round;
 
 /* ---- contact_spheres ---- */
 
@@ -135,6 +138,31 @@ static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, d
     struct shape_point p;
     shape_balls_touch(&p, ci, ri, cj, rj, apart, id);
     return p;
+}
+
+/* Spheres: the contact point lies in the middle of the overlap. */
+static inline void shape_spheres_overlap(const struct grains *g, const struct candidates *c,
+                                         struct touch *t, struct levers *l)
+{
+    (void)g;
+#pragma omp simd
+    for (int k = 0; k < c->n; k++) {
+        const real square = c->dx[k] * c->dx[k] + c->dy[k] * c->dy[k] + c->dz[k] * c->dz[k];
+        const real inverse = inverse_root(square), distance = square * inverse;
+        const real half = 0.5 * (t->r_i[k] + t->r_j[k] - distance);
+        const real arm_i = half - t->r_i[k];
+        const real arm_j = t->r_j[k] > 0.0 ? t->r_j[k] - half : 0.0;
+        t->depth[k] = 2.0 * half;
+        t->nx[k] = c->dx[k] * inverse;
+        t->ny[k] = c->dy[k] * inverse;
+        t->nz[k] = c->dz[k] * inverse;
+        l->ix[k] = arm_i * t->nx[k];
+        l->iy[k] = arm_i * t->ny[k];
+        l->iz[k] = arm_i * t->nz[k];
+        l->jx[k] = arm_j * t->nx[k];
+        l->jy[k] = arm_j * t->ny[k];
+        l->jz[k] = arm_j * t->nz[k];
+    }
 }
 
 /* A ball of the species: body's frame, units of size. */

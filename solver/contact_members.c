@@ -200,6 +200,12 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     b->kept = NULL;
 }
 
+static bool turns(const struct sim *s)
+{
+    (void)s;
+    return true;
+}
+
 const struct contact_path contact_members = {.rows = points_rows,
                                              .pairs = work_pairs,
                                              .walls = points_walls,
@@ -212,4 +218,4 @@ const struct contact_path contact_members = {.rows = points_rows,
                                              .take = members_take,
                                              .put_back = members_put_back,
                                              .turning = &turning,
-                                             .turns = true};
+                                             .turns = turns};

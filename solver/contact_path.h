@@ -32,8 +32,9 @@ struct contact_path {
     void (*put_back)(struct sim *s, int run);
     const struct turning *turning; /* NULL: a grain's inertia is a number, and nobody
                                                  asks for its orientation */
-    bool
-        turns; /* which parts of two bodies are within the thin skin depends on how they are turned */
+    /* Whether it depends on how two bodies are turned which of their parts are within the thin skin. NULL:
+     * it does not. */
+    bool (*turns)(const struct sim *s);
 };
 
 #endif

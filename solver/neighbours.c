@@ -334,7 +334,8 @@ bool neighbours_fresh(struct sim *s, struct ageing *age, int step)
     struct neighbours *const nb = &s->neighbours;
     const double way = sqrt(nb->fastest[step % 2]) * s->run.dt;
     age->way = way;
-    age->tip = shape.path->turns ? sqrt(nb->tips[step % 2]) * s->run.dt : 0.0;
+    age->tip =
+        shape.path->turns && shape.path->turns(s) ? sqrt(nb->tips[step % 2]) * s->run.dt : 0.0;
     age->moved += way;
     age->moved_inner += way + age->tip;
     if (!(age->moved <= 0.5 * nb->skin))

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# verify/shapes.sh - a clump of one sphere is a sphere: the same motion to round-off, with history,
-# rolling, cohesion, frozen grains, walls of several kinds, a moving STL mesh among them. (A dilute
-# throng: where a grain has three contacts and more, the two paths add them in another order.)
+# verify/shapes.sh - a clump of one sphere is a sphere: the same motion to the last bit, with history,
+# rolling, cohesion, frozen grains, walls of several kinds, a moving STL mesh among them, in a throng that
+# comes to lie with several contacts a grain, on one and two threads.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
 tmp=$(mktemp -d)
@@ -23,7 +23,7 @@ diameter_min = 2.9 mm
 diameter_max = 4.3 mm
 density      = 2385 kg/m3
 fill         = random
-count        = 40
+count        = 300
 from         = 10 10 30 mm
 to           = 50 50 100 mm
 spin         = 3 -7 11 rad/s
@@ -57,7 +57,7 @@ velocity = 0 0 -50 mm/s
 [output]
 contacts = on
 [run]
-end         = 60 ms
+end         = 120 ms
 overlap_max = 0.5
 force       = on
 EOF
@@ -79,16 +79,11 @@ numbers() { # SHAPE THREADS
 sphere=$(numbers sphere 2)
 clump=$(numbers clump 1)
 lines=$(wc -l <<< "$sphere")
-# Spheres take one cross product for both torques, points of contact two: they differ by round-off.
-worst=$(paste -d ' ' <(tr -s ', ;=' '\n' <<< "$sphere") <(tr -s ', ;=' '\n' <<< "$clump") |
-    awk '$1 != $2 { if ($1 + 0 == 0 && $1 !~ /^-?0/) { print 1; exit }
-                    d = $1 - $2; d = d < 0 ? -d : d; if (d > worst) worst = d }
-         END { printf "%.2g\n", worst }' | head -n 1)
-if [ "$lines" -gt 300 ] && awk -v w="$worst" 'BEGIN { exit !(w < 1e-9) }'; then
-    echo "ok   a clump of one sphere moves as a sphere does, within $worst in any number of $lines lines"
+if [ "$lines" -gt 300 ] && [ "$sphere" = "$clump" ]; then
+    echo "ok   a clump of one sphere moves as a sphere does, to the last bit of $lines lines"
     passed=$((passed + 1))
 else
-    echo "FAIL a clump of one sphere does not move as a sphere: off by $worst ($lines lines)"
+    echo "FAIL a clump of one sphere does not move as a sphere ($lines lines)"
     failed=$((failed + 1))
 fi
 echo "$passed passed, $failed failed"
