@@ -8,6 +8,8 @@
 static const char *const colour[VERDICTS] = {"#f4f4f4", "#79b473", "#e8b04b", "#8fb8de",
                                              "#5b7db1", "#bdbdbd", "#c0392b"};
 
+enum { LEGEND_ROW = 26 }; /* pixels */
+
 /* The grid of the picture: a row is a value of the second axis, or an axis. */
 struct rows {
     const struct extremes *x;
@@ -91,10 +93,11 @@ static void send_square(FILE *to, const struct rows *r, int row, int column, int
         x[n] = along ? column + part : c0;
         y[n++] = along ? r0 : row + part;
     }
-    if (n == 2)
+    if (n == 2 && to)
         fprintf(to, "%g %g\n%g %g\n\n", x[0], y[0], x[1], y[1]);
 }
 
+/* Returns whether there is anything of it to draw; to: NULL to ask only. */
 static bool send_limit(FILE *to, const struct rows *r, int limit)
 {
     bool any = false;
@@ -102,7 +105,7 @@ static bool send_limit(FILE *to, const struct rows *r, int limit)
         for (int c = 0; c + 1 < columns_of(r, row); c++) {
             const double part = crossing(ratio(r, row, c, limit), ratio(r, row, c + 1, limit));
             any = any || isfinite(part);
-            if (!r->x->grid && isfinite(part))
+            if (!r->x->grid && isfinite(part) && to)
                 fprintf(to, "%g %g\n%g %g\n\n", c + part, row - 0.4, c + part, row + 0.4);
             if (r->x->grid && row + 1 < r->n)
                 send_square(to, r, row, c, limit);
@@ -125,15 +128,17 @@ static void send_tics(FILE *to, const char *which, const struct axis *a, int n)
     fprintf(to, ")\n");
 }
 
-static void send_frame(FILE *to, const struct rows *r, int most)
+/* `legend` of `height`: what the legend takes below the axes, pixels. */
+static void send_frame(FILE *to, const struct rows *r, int most, int legend, int height)
 {
     const struct study *const s = &r->x->study;
+    const double bottom = (legend + (r->x->grid ? 110.0 : 20.0)) / height;
     fprintf(
         to,
         "unset grid\nset xrange [-0.6:%g]\nset yrange [-0.6:%g]\nset lmargin at screen 0.14\n"
-        "set bmargin at screen 0.17\nset key at screen 0.53,0.085 center top horizontal "
-        "maxcols 4\n",
-        most - 0.4, r->n - 0.4);
+        "set bmargin at screen %g\nset key at screen 0.53,%g center top horizontal "
+        "maxcols 2\n",
+        most - 0.4, r->n - 0.4, bottom, (legend + 5.0) / height);
     if (r->x->grid) {
         send_tics(to, "xtics rotate by -30", &s->axis[0], r->x->shown[0]);
         send_tics(to, "ytics", &s->axis[1], r->x->shown[1]);
@@ -153,23 +158,28 @@ static void send_frame(FILE *to, const struct rows *r, int most)
 void extremes_draw(const struct extremes *x)
 {
     const struct rows r = {x, x->grid ? x->shown[1] : x->study.n_axes};
-    int most = 1;
+    int most = 1, lines = 0;
     bool drawn[MOST_NAMES] = {false};
     for (int row = 0; row < r.n; row++)
         most = columns_of(&r, row) > most ? columns_of(&r, row) : most;
-    const int height = x->grid ? 900 : 260 + 75 * r.n;
+    for (int k = 0; k < x->n_names; k++) {
+        drawn[k] = send_limit(NULL, &r, k);
+        lines += drawn[k];
+    }
+    const int legend = LEGEND_ROW * (VERDICTS - POINT_RIGHT + lines + 1) / 2 + 15;
+    const int height = x->grid ? 780 + legend : 90 + 75 * r.n + legend;
     struct picture p = picture_open_in(x->study.directory, "extremes.png", 1200, height);
     FILE *const to = p.gnuplot;
     char *const title =
         xprintf("%s: where it breaks (numbers in cells: error)", x->study.scene);
     picture_text(to, "title", title, "font ',15' noenhanced");
-    send_frame(to, &r, most);
+    send_frame(to, &r, most, legend, height);
     for (int row = 0; row < r.n; row++)
         for (int c = 0; c < columns_of(&r, row); c++)
             send_cell(to, &r, row, c);
     for (int k = 0; k < x->n_names; k++) {
         fprintf(to, "$l%d << END\n", k);
-        drawn[k] = send_limit(to, &r, k);
+        send_limit(to, &r, k);
         fprintf(to, "NaN NaN\nEND\n");
     }
     fprintf(to, "plot NaN with boxes fs solid fc '%s' title 'right'", colour[POINT_RIGHT]);
