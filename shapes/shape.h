@@ -208,7 +208,7 @@ struct shape {
      * there already, from the bounding radii (r_j = 0 for a wall). A pair that does not overlap gets
      * a negative depth (its gap). Asked for contacts with walls and for views of contacts; of pairs in
      * the loop contact_block.c takes every grain for the sphere of its bounding radius, so this path
-     * is for shapes that are that. */
+     * is for shapes that are that. contact_members asks it too, of a ball (r_i) and a wall. */
     void (*overlaps)(const struct grains *g, const struct candidates *c, struct touch *t,
                      struct levers *l);
 

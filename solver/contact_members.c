@@ -4,7 +4,7 @@
  * velocity v + w x o and spin w: it goes through what spheres go through (contact_spheres.h), in the same
  * blocks, and the force on it acts on the grain with the torque o x f besides its own. So a union of
  * one sphere is a sphere to the last bit. Which members come close is found when active slots are chosen
- * (contact_members_pack.c); walls are those of contact_points_walls.c. */
+ * (contact_members_pack.c); walls likewise (contact_members_walls.c). */
 #include "contact_members.h"
 
 #include <string.h>
@@ -54,22 +54,6 @@ static void gather(const struct sim *s, const struct member_block *p, int n, str
     }
 }
 
-struct offset {
-    real x, y, z;
-};
-
-/* size q v q*, with t = 2 u x v of q = (w, u): v + w t + u x t. */
-static inline struct offset turned(real w, real ux, real uy, real uz, real size, real x, real y,
-                                   real z)
-{
-    const real vx = size * x, vy = size * y, vz = size * z;
-    const real tx = 2.0 * fma(uy, vz, -uz * vy), ty = 2.0 * fma(uz, vx, -ux * vz);
-    const real tz = 2.0 * fma(ux, vy, -uy * vx);
-    return (struct offset){fma(w, tx, fma(uy, tz, fma(-uz, ty, vx))),
-                           fma(w, ty, fma(uz, tx, fma(-ux, tz, vy))),
-                           fma(w, tz, fma(ux, ty, fma(-uy, tx, vz)))};
-}
-
 /* From the grains to the members: distances, velocities, radii; offsets to the levers' place. */
 static void go_to_members(struct block *b, const struct turned *g)
 {
@@ -78,10 +62,10 @@ static void go_to_members(struct block *b, const struct turned *g)
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const real size_i = g->i[7][c], size_j = g->j[7][c];
-        const struct offset i = turned(g->i[0][c], g->i[1][c], g->i[2][c], g->i[3][c], size_i,
-                                       g->of[0][c], g->of[1][c], g->of[2][c]);
-        const struct offset j = turned(g->j[0][c], g->j[1][c], g->j[2][c], g->j[3][c], size_j,
-                                       g->of[4][c], g->of[5][c], g->of[6][c]);
+        const struct offset i = members_offset(g->i[0][c], g->i[1][c], g->i[2][c], g->i[3][c],
+                                               size_i, g->of[0][c], g->of[1][c], g->of[2][c]);
+        const struct offset j = members_offset(g->j[0][c], g->j[1][c], g->j[2][c], g->j[3][c],
+                                               size_j, g->of[4][c], g->of[5][c], g->of[6][c]);
         const real px = b->px[c], py = b->py[c], pz = b->pz[c];
         const real qx = b->qx[c], qy = b->qy[c], qz = b->qz[c];
         const real fx = g->i[4][c], fy = g->i[5][c], fz = g->i[6][c];
@@ -137,9 +121,9 @@ static void note_deep(const struct sim *s, const struct block *b, struct report 
 }
 
 /* Marks of the slots, counts, energy, overlaps; single contacts where someone looks. */
-static void report(struct sim *s, struct block *b, struct report *r)
+void members_report(struct sim *s, struct block *b, struct report *r)
 {
-    struct slots *const l = &s->neighbours.pairs;
+    struct slots *const l = b->walls ? &s->neighbours.walls : &s->neighbours.pairs;
     const double reach = s->neighbours.reach;
     r->energy += laws_energy(b, reach, NULL);
     for (int c = 0; c < b->n; c++) {
@@ -149,17 +133,20 @@ static void report(struct sim *s, struct block *b, struct report *r)
             continue;
         *live = depth > 0.0 || *live == LIVE_OVERLAP ? LIVE_OVERLAP : LIVE_REACH;
         r->touching += depth > 0.0;
-        r->overlap = fmax(r->overlap, depth / (double)fmin(b->t.r_i[c], b->t.r_j[c]));
+        r->overlap =
+            fmax(r->overlap,
+                 depth / (double)(b->walls ? b->t.r_i[c] : fmin(b->t.r_i[c], b->t.r_j[c])));
         if (s->contacts->watched)
             points_note_seen(s, b, c, r);
     }
 }
 
-static void forget_reports(struct sim *s, const int *slot, int count)
+void members_forget_reports(struct sim *s, bool walls, const int *slot, int count)
 {
+    struct slots *const l = walls ? &s->neighbours.walls : &s->neighbours.pairs;
     for (int k = 0; k < count; k++) {
-        s->neighbours.pairs.live[slot[k]] = 0;
-        points_forget_seen(s, false, slot[k]);
+        l->live[slot[k]] = 0;
+        points_forget_seen(s, walls, slot[k]);
     }
 }
 
@@ -169,7 +156,7 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
     const struct pack *const pack = &s->contacts->pack[to->first / RUN];
     const int rows = laws_rows();
     if (to->asked)
-        forget_reports(s, slot, count);
+        members_forget_reports(s, false, slot, count);
     spheres_open(s, b, to);
     for (int from = 0; from < pack->n; from += TOUCH) {
         struct member_block *const p = member_block(pack, from / TOUCH, rows);
@@ -192,7 +179,7 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             levers_to_contact(b);
         laws_note_broken(s, b, &s->neighbours.pairs, to->time);
         if (to->asked)
-            report(s, b, to->report);
+            members_report(s, b, to->report);
         if (s->grains.n_frozen > 0)
             laws_add_skeleton(&s->grains, b, to->report);
     }
@@ -206,16 +193,28 @@ static bool turns(const struct sim *s)
     return true;
 }
 
+static void take_run(struct sim *s, int run)
+{
+    members_take(s, run);
+    members_walls_take(s, run);
+}
+
+static void put_back_run(struct sim *s, int run)
+{
+    members_put_back(s, run);
+    members_walls_put_back(s, run);
+}
+
 const struct contact_path contact_members = {.rows = points_rows,
                                              .pairs = work_pairs,
-                                             .walls = points_walls,
+                                             .walls = members_walls,
                                              .view = points_view,
                                              .seen_size = points_seen_size,
                                              .stop = points_stop,
                                              .create = members_create,
                                              .free = members_free,
                                              .prepare = members_prepare,
-                                             .take = members_take,
-                                             .put_back = members_put_back,
+                                             .take = take_run,
+                                             .put_back = put_back_run,
                                              .turning = &turning,
                                              .turns = turns};

@@ -84,7 +84,7 @@ static int find(struct filling *f, struct shape_pair *pair)
 }
 
 /* The record of a contact that was; NULL: there is none. */
-static const real *record_of(const struct cut *cut, real *memory, int id)
+const real *members_record(const struct cut *cut, real *memory, int id)
 {
     for (int r = 0; r < points_used(cut, memory); r++)
         if (record_id(points_record(cut, memory, r)) == id)
@@ -115,7 +115,7 @@ static void enter(struct filling *f, int slot, int id)
     const int n_j = first[g->kind[j] + 1] - first[g->kind[j]];
     struct member_block *const b = next_lane(f);
     real *const memory = &l->memory[(size_t)slot * s->neighbours.rows];
-    const real *const record = record_of(&f->cut, memory, id);
+    const real *const record = members_record(&f->cut, memory, id);
     b->i[c] = i;
     b->j[c] = j;
     b->to[c] = s->neighbours.to[slot];

@@ -29,10 +29,9 @@ struct member {
     int c;
 };
 
-static struct member member(const struct sim *s, const struct wall_pack *p, int entry)
+static struct member member(const struct wall_pack *p, int entry)
 {
-    return (struct member){wall_pack_block(p, entry / TOUCH, s->neighbours.rows),
-                           entry % TOUCH};
+    return (struct member){wall_pack_block(p, entry / TOUCH, laws_rows()), entry % TOUCH};
 }
 
 static bool is_live(const struct sim *s, const struct member *m)
@@ -45,7 +44,8 @@ static struct facing facing_of(const struct sim *s, const struct member *m)
     const struct wall_block *const b = m->block;
     const int c = m->c;
     struct facing f = {.slot = b->slot[c], .wall = b->wall, .local = b->look.element[c]};
-    f.centre = s->grains.pos[b->i[c]];
+    f.centre = v3_add(s->grains.pos[b->i[c]],
+                      v3((double)b->off[0][c], (double)b->off[1][c], (double)b->off[2][c]));
     f.away = v3(b->look.ax[c], b->look.ay[c], b->look.az[c]);
     f.distance = b->distance[c];
     f.part = (enum wall_part)b->look.part[c];
@@ -54,8 +54,7 @@ static struct facing facing_of(const struct sim *s, const struct member *m)
 }
 
 /* A new contact takes the memory of one that has just ended. */
-static void pass_memory(const struct sim *s, struct facing *f, const struct member *of, int n,
-                        int k)
+static void pass_memory(struct facing *f, const struct member *of, int n, int k)
 {
     double nearest = 0.0;
     int from = -1;
@@ -71,7 +70,7 @@ static void pass_memory(const struct sim *s, struct facing *f, const struct memb
     if (from < 0)
         return;
     const struct member *const a = &of[from], *const b = &of[k];
-    for (int row = 0; row < s->neighbours.rows; row++)
+    for (int row = 0; row < laws_rows(); row++)
         b->block->memory[row][b->c] = a->block->memory[row][a->c];
     b->block->depth[b->c] = a->block->depth[a->c];
     f[from].live = false; /* given away */
@@ -88,7 +87,7 @@ static void decide(const struct sim *s, const struct wall_pack *p, struct wall_c
         of = xalloc((size_t)(crowd.to - crowd.from), sizeof *of);
     }
     for (int e = crowd.from; e < crowd.to; e++) {
-        of[n] = member(s, p, e);
+        of[n] = member(p, e);
         n += of[n].block->counts[of[n].c] || is_live(s, &of[n]);
     }
     for (int k = 0; k < n && n > 1; k++)
@@ -100,25 +99,27 @@ static void decide(const struct sim *s, const struct wall_pack *p, struct wall_c
     }
     for (int k = 0; k < n && n > 1; k++)
         if (f[k].counts && !f[k].live)
-            pass_memory(s, f, of, n, k);
+            pass_memory(f, of, n, k);
     if (f != few) {
         xfree(f);
         xfree(of);
     }
 }
 
-static void look(const struct sim *s, struct wall_block *b)
+static void look(const struct sim *s, struct wall_block *b, const struct ball_walls *balls)
 {
     const struct grains *const g = &s->grains;
     const double reach = s->neighbours.reach;
     struct wall_looks *const l = &b->look;
     double near[TOUCH];
+    if (balls)
+        balls->place(s, b);
     for (int c = 0; c < l->n; c++) {
         const vec3 x = g->pos[b->i[c]];
-        l->x[c] = x.x;
-        l->y[c] = x.y;
-        l->z[c] = x.z;
-        near[c] = g->radius[b->i[c]] + reach;
+        l->x[c] = x.x + (double)b->off[0][c];
+        l->y[c] = x.y + (double)b->off[1][c];
+        l->z[c] = x.z + (double)b->off[2][c];
+        near[c] = (balls ? (double)b->radius[c] : g->radius[b->i[c]]) + reach;
     }
     walls_look(s, &s->walls.wall[b->wall], l, b->arm);
 #pragma omp simd
@@ -309,13 +310,14 @@ static void add(struct block *b, const struct wall_block *p, const struct target
                                 torque[0][k], torque[1][k], torque[2][k], 0.0};
 }
 
-void sphere_walls(struct sim *s, int run, struct block *b, const struct target *to)
+void ball_walls(struct sim *s, int run, struct block *b, const struct target *to,
+                const struct ball_walls *balls)
 {
     struct wall_pack *const pack = &s->contacts->wall_pack[run];
     struct slots *const l = &s->neighbours.walls;
-    const int rows = s->neighbours.rows;
+    const int rows = laws_rows();
     for (int k = 0; k < pack->n_blocks; k++)
-        look(s, wall_pack_block(pack, k, rows));
+        look(s, wall_pack_block(pack, k, rows), balls);
     for (int k = 0; k < pack->n_crowds; k++)
         decide(s, pack, pack->crowd[k]);
     b->walls = true;
@@ -324,18 +326,29 @@ void sphere_walls(struct sim *s, int run, struct block *b, const struct target *
     for (int k = 0; k < pack->n_blocks; k++) {
         struct wall_block *const p = wall_pack_block(pack, k, rows);
         take(s, b, p);
+        if (balls)
+            balls->enter(b, p);
         move(s, b, p);
         reduce(b, &p->look);
         shape.overlaps(&s->grains, &b->c, &b->t, &b->l);
         laws_velocities(b);
         meet(s, b, p, to->report);
         laws_apply(s, b);
+        if (balls)
+            balls->leave(b, p);
         laws_note_broken(s, b, l, to->time);
         spheres_forget(b, rows, (real)s->neighbours.reach);
         add(b, p, to);
-        if (to->asked)
+        if (to->asked && balls)
+            balls->report(s, b, to->report);
+        else if (to->asked)
             spheres_report(s, b, l, to->report);
     }
     b->n = 0;
     b->kept = NULL;
+}
+
+void sphere_walls(struct sim *s, int run, struct block *b, const struct target *to)
+{
+    ball_walls(s, run, b, to, NULL);
 }

@@ -37,6 +37,23 @@ void spheres_forget(struct block *b, int rows, real reach);
  * goes by the marks of the slots. */
 void spheres_report(const struct sim *s, struct block *b, struct slots *l, struct report *r);
 
+/* Grains of several balls (contact_members.c) meet walls by each of them: what that takes beyond spheres. */
+struct wall_block;
+struct ball_walls {
+    /* The balls' places from the grains' centres, radii, the velocity that the full spin gives them: p->off,
+     * p->radius, p->own. */
+    void (*place)(const struct sim *s, struct wall_block *p);
+    /* From the grains to the balls: velocities and radii of a block. */
+    void (*enter)(struct block *b, const struct wall_block *p);
+    /* Levers and p->arm from the balls' centres to the grains'. */
+    void (*leave)(struct block *b, struct wall_block *p);
+    /* In place of spheres_report. */
+    void (*report)(struct sim *s, struct block *b, struct report *r);
+};
+
+/* The same with balls; NULL: spheres. */
+void ball_walls(struct sim *s, int run, struct block *b, const struct target *to,
+                const struct ball_walls *balls);
 /* The wall contacts of a run. Forces on the walls, and their torques about the pivots, are added to
  * those of the target. */
 void sphere_walls(struct sim *s, int run, struct block *b, const struct target *to);

@@ -1,13 +1,14 @@
 /* contact_wall_pack.c - active wall contacts between the slots and the blocks of the loop. */
 #include "contact_wall_pack.h"
 
+#include <string.h>
+#include "contact_laws.h"
 #include "contact_loop.h"
 #include "sim.h"
 
 _Static_assert((int)WALL_LOOKS == (int)TOUCH, "a block is looked at in one go");
 
-/* *data has room for n entries at least; what was there is lost. */
-static void reserve(void **data, int *room, int n, size_t size)
+void wall_pack_reserve(void **data, int *room, int n, size_t size)
 {
     if (n <= *room)
         return;
@@ -23,24 +24,21 @@ void wall_pack_free(struct wall_pack *p)
     xfree(p->order);
 }
 
-/* The active slots by wall, each wall's in their order; returns how many blocks they fill. */
-static int sort_by_wall(const struct sim *s, struct wall_pack *p, const int *active, int n)
+void wall_pack_sort(const struct sim *s, struct wall_pack *p, int run)
 {
     const struct slots *const l = &s->neighbours.walls;
+    const int *const active = &l->active[l->begin[run * RUN]];
+    const int n = l->n_active[run];
     int *const begin = xalloc((size_t)s->walls.n + 1, sizeof *begin);
-    int blocks = 0;
-    reserve((void **)&p->order, &p->order_room, n, sizeof *p->order);
+    wall_pack_reserve((void **)&p->order, &p->order_room, n, sizeof *p->order);
     p->n_order = n;
     for (int k = 0; k < n; k++)
         begin[s->walls.wall_of[l->other[active[k]]] + 1]++;
-    for (int w = 0; w < s->walls.n; w++) {
-        blocks += (begin[w + 1] + TOUCH - 1) / TOUCH;
+    for (int w = 0; w < s->walls.n; w++)
         begin[w + 1] += begin[w];
-    }
     for (int k = 0; k < n; k++)
-        p->order[begin[s->walls.wall_of[l->other[active[k]]]]++] = active[k];
+        p->order[begin[s->walls.wall_of[l->other[active[k]]]]++].slot = active[k];
     xfree(begin);
-    return blocks;
 }
 
 /* What is known of a slot's overlap at the last step: none; within the reach of a law; some. */
@@ -50,13 +48,10 @@ static real depth_before(const struct slots *l, int slot)
     return live == 0 ? -(real)INFINITY : live == LIVE_OVERLAP ? (real)INFINITY : (real)0.0;
 }
 
-static void enter(const struct sim *s, struct wall_block *b, int c, int slot)
+static void recall(const struct sim *s, struct wall_block *b, int c)
 {
     const struct slots *const l = &s->neighbours.walls;
-    const int rows = s->neighbours.rows;
-    b->i[c] = l->owner[slot];
-    b->slot[c] = slot;
-    b->look.element[c] = l->other[slot] - s->walls.first[b->wall];
+    const int rows = s->neighbours.rows, slot = b->slot[c];
     b->depth[c] = depth_before(l, slot);
     for (int row = 0; row < rows; row++)
         b->memory[row][c] = l->memory[(size_t)slot * rows + row];
@@ -70,6 +65,7 @@ static void close_block(struct wall_block *b, int rows)
     for (int c = b->n; c < TOUCH; c++) {
         b->i[c] = b->i[last];
         b->slot[c] = b->slot[last];
+        b->ball[c] = b->ball[last];
         b->look.element[c] = b->look.element[last];
         b->depth[c] = -(real)INFINITY;
         for (int row = 0; row < rows; row++)
@@ -89,22 +85,35 @@ static void note_crowd(struct wall_pack *p, int from, int to)
     p->crowd[p->n_crowds++] = (struct wall_crowd){from, to};
 }
 
-void wall_pack_fill(struct sim *s, int run)
+/* Blocks that entries fill; a block is of one wall. */
+static int blocks_of(const struct sim *s, const struct wall_entry *e, int n)
 {
-    const struct neighbours *const nb = &s->neighbours;
-    const struct slots *const l = &nb->walls;
-    struct wall_pack *const p = &s->contacts->wall_pack[run];
-    const int rows = nb->rows, n = l->n_active[run];
+    int blocks = 0, of_wall = 0;
+    for (int k = 0; k < n; k++) {
+        const int wall = s->walls.wall_of[s->neighbours.walls.other[e[k].slot]];
+        const bool turn =
+            k == 0 || wall != s->walls.wall_of[s->neighbours.walls.other[e[k - 1].slot]];
+        of_wall = turn ? 0 : of_wall + 1;
+        blocks += of_wall % TOUCH == 0;
+    }
+    return blocks;
+}
+
+void wall_pack_build(struct sim *s, struct wall_pack *p, const struct wall_entry *e, int n,
+                     void (*recall_lane)(const struct sim *s, struct wall_block *b, int c))
+{
+    const struct slots *const l = &s->neighbours.walls;
+    const int rows = laws_rows();
     p->n_blocks = p->n_crowds = 0;
     if (n == 0)
         return;
-    const int blocks = sort_by_wall(s, p, &l->active[l->begin[run * RUN]], n);
-    reserve((void **)&p->data, &p->room, blocks, wall_pack_size(rows));
+    wall_pack_reserve((void **)&p->data, &p->room, blocks_of(s, e, n), wall_pack_size(rows));
     struct wall_block *b = NULL;
-    int owner = -1, from = 0, at = 0;
+    int owner = -1, ball = 0, from = 0, at = 0;
     for (int k = 0; k < n; k++) {
-        const int slot = p->order[k], wall = s->walls.wall_of[l->other[slot]];
-        const bool turn = !b || wall != b->wall, apart = turn || l->owner[slot] != owner;
+        const int slot = e[k].slot, wall = s->walls.wall_of[l->other[slot]];
+        const bool turn = !b || wall != b->wall;
+        const bool apart = turn || l->owner[slot] != owner || e[k].ball != ball;
         if (apart)
             note_crowd(p, from, at);
         if (turn || b->n == TOUCH) {
@@ -114,16 +123,30 @@ void wall_pack_fill(struct sim *s, int run)
             b = wall_pack_block(p, p->n_blocks++, rows);
             b->wall = wall;
             b->n = 0;
+            memset(b->off, 0, sizeof b->off);
         }
         if (apart) {
             from = at;
             owner = l->owner[slot];
+            ball = e[k].ball;
         }
-        enter(s, b, b->n++, slot);
+        const int c = b->n++;
+        b->i[c] = owner;
+        b->slot[c] = slot;
+        b->ball[c] = ball;
+        b->look.element[c] = l->other[slot] - s->walls.first[wall];
+        recall_lane(s, b, c);
         at++;
     }
     note_crowd(p, from, at);
     close_block(b, rows);
+}
+
+void wall_pack_fill(struct sim *s, int run)
+{
+    struct wall_pack *const p = &s->contacts->wall_pack[run];
+    wall_pack_sort(s, p, run);
+    wall_pack_build(s, p, p->order, p->n_order, recall);
 }
 
 void wall_pack_put_back(struct sim *s, int run)
