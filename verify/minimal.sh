@@ -19,7 +19,7 @@ short_of() {
         hopper) echo "run.end=30 ms;reference.after=10 ms;reference.until=30 ms" ;;
         packed_bed) echo "grains beads.count=2000;domain.size=12.25 12.25 55 mm;domain.cells=3 3 30;flow.steps=2;flow.hold=30 ms;run.end=60 ms" ;;
         channel | lid_cavity) echo "run.end=0.2 s" ;;
-        angle_of_repose | drum | funnel) echo "run.end=50 ms" ;;
+        angle_of_repose | drum | funnel | level_set) echo "run.end=50 ms" ;;
         clumps | ellipsoids | fluidised_bed | triaxial) echo "run.end=5 ms" ;;
         letters | prism_hopper | shape_discharge | cone_pair_hopper) echo "run.end=10 ms" ;;
     esac

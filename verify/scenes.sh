@@ -77,6 +77,13 @@ run funnel scenes/funnel.ini "run.end=0.3 s"
 verdict $? "funnel.ini in short form runs"
 awk -v m="$(value "$tmp/funnel" outlet_mass)" 'BEGIN { exit !(m > 0.001) }'
 verdict $? "funnel.ini: grains leave through the mesh's outlet, $(value "$tmp/funnel" outlet_mass) kg"
+run level_set scenes/level_set.ini "run.end=0.11 s" -j 3
+verdict $? "level_set.ini in short form runs"
+run level_set_1 scenes/level_set.ini "run.end=0.11 s" -j 1
+command -v ncdump > /dev/null || ./run.sh install netcdf-bin > "$tmp/log" 2>&1
+numbers_of() { ncdump -p 17 "$tmp/$1/run.nc" | sed -n '/^data:/,$p'; }
+cmp -s <(numbers_of level_set_1) <(numbers_of level_set) && [ "$(numbers_of level_set_1 | wc -l)" -gt 60 ]
+verdict $? "level_set.ini: the same bits on 1 and 3 threads"
 run triaxial scenes/triaxial.ini "run.end=0.1 s"
 verdict $? "triaxial.ini in short form runs"
 awk -v p="$(value "$tmp/triaxial" wall_left_stress)" 'BEGIN { exit !(p > 18e3 && p < 22e3) }'
@@ -90,11 +97,11 @@ within "$(value "$tmp/bed" plateau_error)" 0.015
 verdict $? "packed bed: plateau against the buoyant weight, $(value "$tmp/bed" plateau_error)"
 within "$(value "$tmp/bed" u_mf_error)" 0.05
 verdict $? "packed bed: fluidisation velocity, $(value "$tmp/bed" u_mf_error)"
-for s in settling bounce bed drum funnel triaxial; do
+for s in settling bounce bed drum funnel level_set triaxial; do
     grep -q '^ledger = closes' "$tmp/$s/summary.txt"
     verdict $? "$s: the ledger closes"
 done
-for f in drum/bed.png funnel/bed.png triaxial/force_chains.png bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png \
+for f in drum/bed.png funnel/bed.png level_set/bed.png triaxial/force_chains.png bed/pressure_drop.png bed/bed.png bed/series.png bed/run.xmf settling/settling.png bounce/rebound.png darcy/head.png \
     channel/velocity.png channel/pressure.png cavity/vertical.png bed/porosity.png; do
     [ -s "$tmp/$f" ]
     verdict $? "$f is drawn"
