@@ -34,8 +34,10 @@ time_silt() { # NX NY STEPS; prints grain-steps a second by wall clock, by proce
         "grains cubes.file=$tmp/$n.nc" output.bed=none run.dt="10 us" -j 1 -o "$tmp/run")
     for steps in $(($3 / 10)) "$3"; do
         TIMEFORMAT='%R %U'
-        { time "$silt" bench/cubes.ini "run.end=$((10 * steps)) us" "${keys[@]}" > "$tmp/log" 2>&1; } 2>&1 ||
+        { time "$silt" bench/cubes.ini "run.end=$((10 * steps)) us" "${keys[@]}" > "$tmp/log" 2>&1; } 2>&1 || {
             tail -n 3 "$tmp/log" >&2
+            exit 1
+        }
     done | awk -v w="$(($3 - $3 / 10))" -v n=$n '{ for (k = 1; k <= 2; k++) t[k] = $k - t[k] }
         END { print n * w / t[1], n * w / t[2] }'
 }
@@ -58,7 +60,7 @@ for tiles in "1 1" "2 5"; do
     n=$((1000 * nx * ny))
     lay cdl "$nx" "$ny" | ncgen -o "$tmp/$n.nc"
     for ((k = 0; k < rounds; k++)); do
-        time_silt "$nx" "$ny" $((nx * ny == 1 ? 2000 : 200))
+        time_silt "$nx" "$ny" $((nx * ny == 1 ? 2000 : 200)) || exit 1
     done > "$tmp/rates"
     wall=$(cut -d ' ' -f 1 "$tmp/rates" | sort -g | sed -n "$(((rounds + 1) / 2))p")
     own=$(cut -d ' ' -f 2 "$tmp/rates" | sort -g | sed -n "$(((rounds + 1) / 2))p")

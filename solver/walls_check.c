@@ -24,7 +24,10 @@ static double grain_gap(const struct sim *s, int i, int *which)
         const vec3 c = v3_add(x, mat3_turn(&m, v3_scale(size, ball[b].centre)));
         const double r = size * ball[b].radius;
         int k = 0;
-        const double gap = walls_gap(s, c, r, 0.0, &k) / r * g->radius[i];
+        /* in parts of what run.overlap_max is of in a run (contact_points_walls.c) */
+        const double curve = size * ball[b].curve;
+        const double scale = curve > 0.0 ? fmin(curve, r / s->run.overlap_max) : r;
+        const double gap = walls_gap(s, c, r, 0.0, &k) / scale * g->radius[i];
         if (gap < least) {
             least = gap;
             *which = k;
