@@ -125,7 +125,7 @@ static void check_dilated_inertia(void)
                 const vec3 x = {low.x + (i + 0.5) * h.x, low.y + (j + 0.5) * h.y,
                                 low.z + (k + 0.5) * h.z};
                 if (polyhedron_distance(p, x) < d)
-                    moments_add_brick(&g, x, h);
+                    moments_add_brick(&g, 1.0, x, h);
             }
     check(worst(&m, &g) < 3e-4, "all moments against a grid of %d^3 cells: %.2g", n,
           worst(&m, &g));

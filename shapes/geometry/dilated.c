@@ -1,8 +1,8 @@
 /* shapes/geometry/dilated.c - a body of dilated polyhedra: its size, mass, centre and axes.
  *
  * One part: Steiner's formula and exact moments. Several that overlap: a background grid whose cells
- * count where their middles are inside, in full, with the cell's own moment [LiLiuJi23, eqs 2-11; its
- * eqs 6 to 8 leave out the cell's own moment, which is added here]. The body is scaled until its
+ * count as far as they are inside, with the cell's own moment [LiLiuJi23, eqs 2-11; there they count in
+ * full where their middles are inside, and eqs 6 to 8 leave out the cell's own moment]. The body is scaled until its
  * volume is that of the sphere of its size, with the ball's radius held. */
 #include "dilated.h"
 
@@ -74,6 +74,21 @@ static void bounds(const struct dilated *d, vec3 *low, vec3 *high)
     }
 }
 
+/* How much of a cell is inside, were the surface flat: from 1 to 0 over the cell's breadth along the
+ * surface's normal. Planes of cells that the surface is parallel to, however it is turned, then
+ * err by nothing in the mean, where cells that count in full or not at all err all alike. */
+static double filled(const struct dilated *d, vec3 x, vec3 h)
+{
+    const double reach = v3_norm(h), step = 1e-3 * reach, out = dilated_out(d, x, reach);
+    if (!(fabs(out) < 0.5 * reach))
+        return out < 0.0 ? 1.0 : 0.0;
+    const double gx = dilated_out(d, v3(x.x + step, x.y, x.z), reach) - out,
+                 gy = dilated_out(d, v3(x.x, x.y + step, x.z), reach) - out,
+                 gz = dilated_out(d, v3(x.x, x.y, x.z + step), reach) - out;
+    const double breadth = (fabs(gx) * h.x + fabs(gy) * h.y + fabs(gz) * h.z) / step;
+    return fmin(fmax(0.5 - out / breadth, 0.0), 1.0);
+}
+
 /* Moments over a grid of about that spacing. */
 static void sum_grid(const struct dilated *d, double spacing, struct moments *m)
 {
@@ -89,8 +104,7 @@ static void sum_grid(const struct dilated *d, double spacing, struct moments *m)
             for (int i = 0; i < nx; i++) {
                 const vec3 x = {low.x + (i + 0.5) * h.x, low.y + (j + 0.5) * h.y,
                                 low.z + (k + 0.5) * h.z};
-                if (dilated_holds(d, x))
-                    moments_add_brick(m, x, h);
+                moments_add_brick(m, filled(d, x, h), x, h);
             }
 }
 
@@ -130,19 +144,24 @@ static void weigh_one(struct dilated *d, struct moments *m)
         moments_add_ball(m, v3(0.0, 0.0, 0.0), d->r);
 }
 
-/* Scaled by the cube root of what is missing, which the held ball makes a little too little. */
+/* The volume grows with a power of the scale: 3, less where much of it is the ball's, which is held;
+ * the last two sums say which. */
 static bool weigh_several(struct dilated *d, double spacing, struct moments *m)
 {
+    double power = 3.0;
     for (int k = 0; k < d->n_parts; k++) /* sets a scale near the last one */
         if (d->part[k].core->radius <= 0.0)
             return false;
     sum_grid(d, longest(d) / COARSE, m);
     for (int round = 0, more = ROUNDS_MOST; round < ROUNDS; round++) {
-        const double by = cbrt(UNIT_VOLUME / m->volume);
+        const bool coarse = round < ROUNDS - 2;
+        const double before = m->volume, by = pow(UNIT_VOLUME / before, 1.0 / power);
         if (!(by > 0.0) || !isfinite(by))
             return false;
         move(d, v3(0.0, 0.0, 0.0), by, unit_axes);
-        sum_grid(d, round < ROUNDS - 2 ? longest(d) / COARSE : spacing, m);
+        sum_grid(d, coarse ? longest(d) / COARSE : spacing, m);
+        if (coarse && fabs(by - 1.0) > 1e-3)
+            power = fmin(fmax(log(m->volume / before) / log(by), 0.2), 3.0);
         /* thin parts are slow: most of their volume is the ball's */
         if (round == ROUNDS - 3 && fabs(m->volume / UNIT_VOLUME - 1.0) > 0.005 && more-- > 0)
             round--;

@@ -55,6 +55,9 @@ void dilated_free(struct dilated *d);
 /* Inside of it? */
 bool dilated_holds(const struct dilated *d, vec3 x);
 bool dilated_part_holds(const struct dilated *d, int part, vec3 x);
+/* How far a point is outside of the surface of the nearest part, less than 0 inside; infinity beyond
+ * the reach. */
+double dilated_out(const struct dilated *d, vec3 x, double reach);
 struct shape_part *dilated_parts(const struct dilated *d, double spacing, int *n);
 void dilated_surface(const struct dilated *d, struct shape_canvas *c);
 double dilated_shadow(const struct dilated *d, vec3 along);

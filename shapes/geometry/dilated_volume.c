@@ -31,6 +31,30 @@ bool dilated_holds(const struct dilated *d, vec3 x)
     return false;
 }
 
+static double part_out(const struct dilated_part *p, double r, vec3 x, double reach)
+{
+    const struct polyhedron *const c = p->core;
+    const vec3 d = v3_sub(x, p->middle);
+    const double far = (double)INFINITY;
+    double out = -far;
+    if (fabs(d.x) > p->half.x + reach || fabs(d.y) > p->half.y + reach ||
+        fabs(d.z) > p->half.z + reach)
+        return far;
+    for (int f = 0; f < c->face_room; f++)
+        out = fmax(out, c->nx[f] * x.x + c->ny[f] * x.y + c->nz[f] * x.z - c->off[f]);
+    if (out <= 0.0)
+        return out - r;
+    return out > r + reach ? far : polyhedron_distance(c, x) - r;
+}
+
+double dilated_out(const struct dilated *d, vec3 x, double reach)
+{
+    double out = (double)INFINITY;
+    for (int k = 0; k < d->n_parts; k++)
+        out = fmin(out, part_out(&d->part[k], d->r, x, reach));
+    return out;
+}
+
 /* The part of a cell that is inside, and its middle. */
 static struct shape_part look(const struct dilated *d, vec3 low, double h)
 {

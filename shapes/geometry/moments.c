@@ -235,9 +235,9 @@ void moments_add_ball(struct moments *m, vec3 centre, double r)
     m->zz += own;
 }
 
-void moments_add_brick(struct moments *m, vec3 middle, vec3 sides)
+void moments_add_brick(struct moments *m, double density, vec3 middle, vec3 sides)
 {
-    const double v = sides.x * sides.y * sides.z;
+    const double v = density * sides.x * sides.y * sides.z;
     m->volume += v;
     m->first = v3_axpy(m->first, v, middle);
     add_second(m, v, middle, middle);

@@ -64,8 +64,8 @@ double polyhedron_steiner(const struct polyhedron *p, double r);
  * axes (rows, right-handed) [Jacobi1846]. */
 void moments_principal(const struct moments *m, vec3 *centre, double inertia[3], vec3 axes[3]);
 
-/* A ball of density 1 and a cell (a brick with sides along the axes): for grids. */
+/* A ball of density 1 and a cell (a brick with sides along the axes) of that density: for grids. */
 void moments_add_ball(struct moments *m, vec3 centre, double r);
-void moments_add_brick(struct moments *m, vec3 middle, vec3 sides);
+void moments_add_brick(struct moments *m, double density, vec3 middle, vec3 sides);
 
 #endif
