@@ -136,8 +136,7 @@ static void moments_of_t(struct moments *m, double l, double r)
         gsl_integration_glfixed_point(0.0, 0.5 * PI, k, &q, &weight, gauss);
         add_plane(m, l, 15.0 * l + r * sin(q), r * cos(q), 2.0 * weight * r * cos(q));
     }
-    const double a = (30.0 * 180.0 + 70.0 * 30.0) * l * l, p = 560.0 * l,
-                 c = 1.5 * PI - 2.0;
+    const double a = (30.0 * 180.0 + 70.0 * 30.0) * l * l, p = 560.0 * l, c = 1.5 * PI - 2.0;
     const double v = 30.0 * l * (a + p * r + c * r * r) + 2.0 * a * r + 0.5 * PI * p * r * r +
                      4.0 / 3.0 * c * r * r * r;
     if (!(fabs(m->volume / v - 1.0) < 1e-11)) {
@@ -154,7 +153,8 @@ static void exact_of_t(struct exact *e, const struct dilated *d)
     struct moments m;
     moments_of_t(&m, l, d->r);
     finish(e, &m);
-    const double own = -v3_dot(stem, between) / apart; /* of the grid, above the stem's middle */
+    const double own =
+        -v3_dot(stem, between) / apart; /* of the grid, above the stem's middle */
     e->centre = fabs(m.first.z / m.volume - own);
 }
 

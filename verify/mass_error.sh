@@ -32,12 +32,12 @@ set format y '10^{%T}'
 set xtics (0.01, 0.02, 0.03, 0.06)
 set xrange [0.011:0.066]
 set grid lc rgb '#dddddd'
-set key bottom right
 set xlabel 'spacing over diameter'
 do for [c = 2:4] {
     set title word('x volume centre inertia', c)
     set ylabel (c == 3 ? 'error over diameter' : 'relative error')
-    set yrange [(c == 3 ? 1e-9 : 1e-6) : 1e-1]
+    if (c == 4) { set key bottom right } else { unset key }
+    set yrange [(c == 3 ? 1e-9 : c == 2 ? 1e-6 : 1e-7) : 1e-1]
     plot '$tmp/cube.dat' using 1:c with linespoints pt 5 lc rgb '#0072b2' title 'cube in two', \
          '$tmp/tetrahedron.dat' using 1:c with linespoints pt 9 lc rgb '#d55e00' title 'tetrahedron in two', \
          '$tmp/dodecahedron.dat' using 1:c with linespoints pt 7 lc rgb '#009e73' title 'dodecahedron in two', \
