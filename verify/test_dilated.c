@@ -200,6 +200,39 @@ static void check_rocking(double zeta)
     xfree(text);
 }
 
+/* A cube of side 10 mm, turned by 20 degrees, into which the edge of a plate reaches 2.65 mm through its side:
+ * that depth, not the 6.4 mm to its top or bottom, as its centre passes the plate's plane. */
+static void check_plate(void)
+{
+    char *const text =
+        xprintf("[domain]\nsize = 100 100 100 mm\n[run]\nend = 1 s\n" MATERIAL
+                "restitution = 0.3\nfriction = 0.5\n[grains c]\n" CUBE
+                "orientation = aligned\ndiameter = %.15g mm\nposition = 50 50 50 mm\n",
+                diameter_of_cube());
+    struct sim *const s = sim_from(text);
+    const double turn = -20.0 * PI / 180.0, edge = 2.5e-3;
+    struct shape_pose pose = {.size = s->grains.radius[0] / s->grains.species[0].form.bounding,
+                              .q = {cos(0.5 * turn), 0.0, sin(0.5 * turn), 0.0}};
+    pose.turn = quat_matrix(pose.q);
+    for (int k = 0; k < 2; k++) {
+        const double z =
+            k == 0 ? -0.07e-3 : 0.07e-3; /* of the plate; the centre is above, then below */
+        const struct shape_facet plate = {.n = 4,
+                                          .corner = {v3(edge, -0.05, z), v3(0.05, -0.05, z),
+                                                     v3(0.05, 0.05, z), v3(edge, 0.05, z)},
+                                          .normal = v3(0.0, 0.0, k == 0 ? 1.0 : -1.0)};
+        const double side = 5e-3 - edge * cos(turn) - z * sin(-turn);
+        struct shape_point p[4];
+        vec3 core;
+        const int n = shape.meet_flat(&pose, 0, &plate, 1e-3, &core, p);
+        check(n > 0, "a plate that reaches into a cube is met");
+        check_rel(p[0].depth, side, 0.03, "through its side, m");
+        check(p[0].normal.x < -0.9, "and pushed back to where it came from: %g", p[0].normal.x);
+    }
+    sim_free(s);
+    xfree(text);
+}
+
 /* Volumes: those of the parts for grids, and the shadow's mean, a quarter of the surface of a convex body
  * [Cauchy1841]. */
 static void check_body(int form, double r, bool convex)
@@ -320,6 +353,7 @@ static void check_meshes(void)
 
 int main(void)
 {
+    check_plate();
     omp_set_num_threads(1); /* small scenes: more threads only wait for each other */
     check_body(0, 0.1, true);
     check_body(1, 0.3, true);

@@ -96,6 +96,26 @@ static bool find(const struct crown *a, const struct piece *f, double reach, boo
     return false;
 }
 
+/* Where the piece cuts the core, each of its sides has a gap of its own: the greater counts, whichever
+ * side the body's centre is on (it may hang past an edge and lie below the plane). */
+static bool find_side(const struct crown *a, const struct piece *f, double reach, bool *face,
+                      struct crown_gap *g)
+{
+    if (!find(a, f, reach, face, g))
+        return false;
+    if (g->gap >= 0.0 || f->n == 0)
+        return true;
+    struct piece back = *f;
+    struct crown_gap other;
+    bool other_face;
+    back.normal = v3_scale(-1.0, f->normal);
+    if (find(a, &back, reach, &other_face, &other) && other.gap > g->gap) {
+        *g = other;
+        *face = other_face;
+    }
+    return true;
+}
+
 /* As in dilated_pair.c. */
 static int put(const struct dilated *d, const struct shape_pose *i, const struct crown_gap *g,
                bool face, int first, struct shape_point *out)
@@ -140,7 +160,7 @@ int dilated_flat(const struct dilated *d, const struct shape_pose *i, int part,
     /* the plane is out of reach of the ball about the part */
     if (v3_dot(own.normal, v3_sub(p->middle, own.corner[0])) > p->radius + reach / i->size)
         return 0;
-    if (!find(&a, &own, most, &face, &g))
+    if (!find_side(&a, &own, most, &face, &g))
         return 0;
     *core = v3_scale(i->size, mat3_turn(&i->turn, g.on_a));
     return put(d, i, &g, face, d->n_balls + 5 * part, out);
