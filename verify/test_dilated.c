@@ -233,6 +233,36 @@ static void check_plate(void)
     xfree(text);
 }
 
+/* A prism that hangs past a plate's edge, as one did in a hopper: its top is abreast of the plate, its centre
+ * below, its side a little off the edge. Whatever side the plate is seen from, it is met there. */
+static void check_hanging(void)
+{
+    struct sim *const s =
+        sim_from("[domain]\nsize = 100 100 100 mm\n[run]\nend = 1 s\n" MATERIAL
+                 "restitution = 0.3\nfriction = 0.5\n[grains c]\nform = prism\nsides = "
+                 "3\ndilation = 1 mm\n"
+                 "diameter = 10.05 mm\ndensity = 652 kg/m3\nfill = point\nmaterial = "
+                 "m\nposition = 50 50 50 mm\n");
+    struct shape_pose pose = {.size = s->grains.radius[0] / s->grains.species[0].form.bounding,
+                              .q = {-0.5884895151762461, -0.27240878706789784,
+                                    0.11201807627857434, 0.75294454898264}};
+    const double x = 4.14931e-3, z = 0.600172e-3;
+    double depth[2];
+    pose.turn = quat_matrix(pose.q);
+    for (int k = 0; k < 2; k++) {
+        const struct shape_facet plate = {.n = 4,
+                                          .corner = {v3(x, -0.0439, z), v3(0.0541, -0.0439, z),
+                                                     v3(0.0541, 0.006, z), v3(x, 0.006, z)},
+                                          .normal = v3(0.0, 0.0, k == 0 ? 1.0 : -1.0)};
+        struct shape_point p[4];
+        vec3 core;
+        depth[k] = shape.meet_flat(&pose, 0, &plate, 3e-3, &core, p) > 0 ? p[0].depth : -1.0;
+        check(depth[k] < 1e-3, "a plate beside the core is not in it: depth %g m", depth[k]);
+    }
+    check_abs(depth[1], depth[0], 2e-5, "the same from below as from above");
+    sim_free(s);
+}
+
 /* Volumes: those of the parts for grids, and the shadow's mean, a quarter of the surface of a convex body
  * [Cauchy1841]. */
 static void check_body(int form, double r, bool convex)
@@ -354,6 +384,7 @@ static void check_meshes(void)
 int main(void)
 {
     check_plate();
+    check_hanging();
     omp_set_num_threads(1); /* small scenes: more threads only wait for each other */
     check_body(0, 0.1, true);
     check_body(1, 0.3, true);

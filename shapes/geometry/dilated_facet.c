@@ -96,15 +96,50 @@ static bool find(const struct crown *a, const struct piece *f, double reach, boo
     return false;
 }
 
-/* Where the piece cuts the core, each of its sides has a gap of its own: the greater counts, whichever
- * side the body's centre is on (it may hang past an edge and lie below the plane). */
-static bool find_side(const struct crown *a, const struct piece *f, double reach, bool *face,
-                      struct crown_gap *g)
+/* The exact distance of core and piece; 0: the piece cuts the core. */
+static struct gap exact_gap(const struct polyhedron *core, const struct piece *f, double reach)
+{
+    const struct points a = {core->vertex_room, core->x, core->y, core->z};
+    double x[POLYHEDRON_LANES], y[POLYHEDRON_LANES], z[POLYHEDRON_LANES];
+    const struct points b = {POLYHEDRON_LANES, x, y, z};
+    struct gap_memory memory = {0};
+    struct gap gap;
+    for (int c = 0; c < POLYHEDRON_LANES; c++) {
+        x[c] = f->corner[c % f->n].x;
+        y[c] = f->corner[c % f->n].y;
+        z[c] = f->corner[c % f->n].z;
+    }
+    gap_find(&a, NULL, &b, NULL, NULL, reach, &memory, &gap);
+    return gap;
+}
+
+/* From the nearest points: across an edge or a corner of the piece, or as they are. */
+static void find_beside(const struct crown *a, const struct piece *f, const struct gap *exact,
+                        double reach, struct crown_gap *g)
+{
+    for (int edge = 1; edge >= 0; edge--)
+        for (int k = 0; k < f->n; k++)
+            if (try_point(a, f, k, edge, exact->on_a, reach, g) && g->gap > 0.0)
+                return;
+    g->gap = exact->distance;
+    g->normal = exact->normal;
+    g->on_a = exact->on_a;
+}
+
+/* What find() gives counts as long as the plane lies outside of the core. A body that hangs past an edge, its
+ * centre beyond the plane, may have its farthest point abreast of the piece, which it does not reach all the
+ * same: then the nearest points tell. Where the piece cuts the core each of its sides has a gap of its own, and
+ * the greater counts. */
+static bool find_side(const struct crown *a, const struct polyhedron *core,
+                      const struct piece *f, double reach, bool *face, struct crown_gap *g)
 {
     if (!find(a, f, reach, face, g))
         return false;
     if (g->gap >= 0.0 || f->n == 0)
         return true;
+    const struct gap exact = exact_gap(core, f, reach);
+    if (exact.distance >= reach)
+        return false;
     struct piece back = *f;
     struct crown_gap other;
     bool other_face;
@@ -112,6 +147,10 @@ static bool find_side(const struct crown *a, const struct piece *f, double reach
     if (find(a, &back, reach, &other_face, &other) && other.gap > g->gap) {
         *g = other;
         *face = other_face;
+    }
+    if (exact.distance > 0.0 && g->gap < 0.0) {
+        *face = false;
+        find_beside(a, f, &exact, reach, g);
     }
     return true;
 }
@@ -160,7 +199,7 @@ int dilated_flat(const struct dilated *d, const struct shape_pose *i, int part,
     /* the plane is out of reach of the ball about the part */
     if (v3_dot(own.normal, v3_sub(p->middle, own.corner[0])) > p->radius + reach / i->size)
         return 0;
-    if (!find_side(&a, &own, most, &face, &g))
+    if (!find_side(&a, c, &own, most, &face, &g))
         return 0;
     *core = v3_scale(i->size, mat3_turn(&i->turn, g.on_a));
     return put(d, i, &g, face, d->n_balls + 5 * part, out);
