@@ -5,7 +5,8 @@
 #include "../shapes/shape.h"
 #include "sim.h"
 
-/* m; room between a grain as it lies and the nearest wall, as walls_gap: as part of the balls by which it touches walls, times its radius. A
+/* m; room between a grain as it lies and the nearest wall, as walls_gap: as part of the balls by
+ * which it touches walls, times its radius. A
  * convex shape without them is only seen behind a wall. */
 static double grain_gap(const struct sim *s, int i, int *which)
 {
