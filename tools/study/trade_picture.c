@@ -7,7 +7,12 @@
 
 #define ROUND_OFF 1e-15 /* smaller errors count as none */
 
-enum { MOST_LEGEND = 8, LEGEND_COLUMNS = 4 };
+enum {
+    MOST_LEGEND = 8,
+    LEGEND_COLUMNS = 4,
+    LEGEND_LETTER = 10,
+    LEGEND_SAMPLE = 80
+}; /* pixels */
 
 /* "ergun, 2": the values alone, of axes that vary. */
 static char *short_label(const struct study *s, const struct variant *v)
@@ -189,15 +194,27 @@ static bool send_ranges(FILE *to, const struct trade *t, struct labels *l)
     return true;
 }
 
+/* As many as the longest name leaves room for. */
+static int legend_columns(const struct study *s, int axis)
+{
+    size_t longest = strlen("Pareto front");
+    for (int g = 0; axis >= 0 && g < s->axis[axis].n; g++) {
+        const size_t length = strlen(s->axis[axis].name) + 3 + strlen(s->axis[axis].value[g]);
+        longest = length > longest ? length : longest;
+    }
+    const int columns = 1200 / (LEGEND_LETTER * (int)longest + LEGEND_SAMPLE);
+    return columns < 1 ? 1 : columns > LEGEND_COLUMNS ? LEGEND_COLUMNS : columns;
+}
+
 void trade_draw(const struct trade *t)
 {
     const struct study *const s = &t->study;
     const int axis = colour_axis(s);
     int *const order = xalloc((size_t)s->n + 1, sizeof *order);
     const int n = front_order(t, order), groups = axis < 0 ? 1 : s->axis[axis].n;
+    const int columns = legend_columns(s, axis);
     /* a legend of so many rows below the axes */
-    const int rows =
-        (groups + 1 + (isfinite(t->within) ? 1 : 0) + LEGEND_COLUMNS - 1) / LEGEND_COLUMNS;
+    const int rows = (groups + 1 + (isfinite(t->within) ? 1 : 0) + columns - 1) / columns;
     const double bottom = 0.1 + 0.03 * rows;
     struct labels l = {.pixels = {1200, 900}, .frame = {0.08, 0.97, bottom, 0.93}};
     struct picture p = picture_open_in(s->directory, "trade.png", l.pixels[0], l.pixels[1]);
@@ -217,7 +234,7 @@ void trade_draw(const struct trade *t)
             "set key at screen 0.53,%g center top horizontal maxcols %d\n"
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n",
-            0.01 + 0.03 * rows, LEGEND_COLUMNS, l.frame[0], l.frame[1], l.frame[2], l.frame[3]);
+            0.01 + 0.03 * rows, columns, l.frame[0], l.frame[1], l.frame[2], l.frame[3]);
     if (send_ranges(to, t, &l)) {
         send_points(to, t, axis);
         send_front(to, t, order, n);
