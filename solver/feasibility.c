@@ -221,7 +221,10 @@ void feasibility_print(FILE *out, const struct sim *s, const struct feasibility 
             continue;
         }
         fprintf(out, "%-40s %12s %12s %8.3g  %s%s\n", f->line[i].name, used, limit, ratio,
-                f->line[i].binding && ratio > 1.0 ? "TOO LONG; " : "", f->line[i].note);
+                !f->line[i].binding || ratio <= 1.0 ? ""
+                : strcmp(f->line[i].unit, "s") == 0 ? "TOO LONG; "
+                                                    : "REFUSED; ",
+                f->line[i].note);
         if (f->line[i].binding && ratio > most) {
             most = ratio;
             worst = i;
