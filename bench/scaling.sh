@@ -19,7 +19,7 @@ settled
 timed() { # NAME BINARY GRAINS THREADS
     local steps
     [ -n "$2" ] || return 0
-    steps=$(awk -v n="$3" -v j="$4" -v q="$quick" 'BEGIN { print int((q == "quick" ? 2e7 : 5e7) * (j > 4 ? 4 : j) / n) }')
+    steps=$(awk -v n="$3" -v j="$4" -v q="$quick" 'BEGIN { print int((q == "quick" ? 8e7 : 1.6e8) * (j > 4 ? 4 : j) / n) }')
     silt "$2" "$3" "$4" "$steps" || return 0
     echo "rate $1 $3 $4 $(summary grain_steps_per_second)" >> "$tmp/figures"
     echo "bytes $1 $3 $4 $(cat "$tmp/peak")" >> "$tmp/figures"
