@@ -149,9 +149,9 @@ static int slab_of(const struct sim *s, int i, int a, int slabs)
     return slab < 0 ? 0 : slab >= slabs ? slabs - 1 : slab;
 }
 
-/* The contacts of each slab in the order of the runs: those of its grains with each other and with those
- * of the slab behind, so that a slab touches the grains of two. Their number is even: the last may touch
- * those of the first. */
+/* The contacts of each slab in the order of the runs: those of its grains with each other and with
+ * those of the slab behind, so that a slab touches the grains of two. Their number is even: the
+ * last may touch those of the first. */
 static void cut_slabs(struct bench *b, struct pack *packs)
 {
     const struct sim *const s = b->s;

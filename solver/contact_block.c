@@ -1,4 +1,5 @@
-/* contact_block.c - contacts of spheres with each other: one per slot, worked through shape and laws in blocks. */
+/* contact_block.c - contacts of spheres with each other: one per slot, worked through shape and
+ * laws in blocks. */
 #include "contact_block.h"
 
 #include <string.h>

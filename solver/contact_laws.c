@@ -166,41 +166,10 @@ void laws_pack(struct block *b)
         pack(b, false, true);
 }
 
-/* The levers are -arm_i and arm_j times the normal: one product gives both torques. */
-static inline __attribute__((always_inline)) void pack_line(struct block *b, bool couples)
-{
-    const struct touch *const t = &b->t;
-    const real8 zero = {0.0};
-    for (int c = 0; c < t->n; c += 8) {
-        const real8 fx = take8(&t->fx[c]), fy = take8(&t->fy[c]), fz = take8(&t->fz[c]);
-        const real8 nx = take8(&t->nx[c]), ny = take8(&t->ny[c]), nz = take8(&t->nz[c]);
-        const real8 mx = couples ? take8(&t->mx[c]) : zero,
-                    my = couples ? take8(&t->my[c]) : zero;
-        const real8 mz = couples ? take8(&t->mz[c]) : zero;
-        const real8 x = nz * fy - ny * fz, y = nx * fz - nz * fx, z = ny * fx - nx * fy;
-        const real8 arm_i = take8(&b->arm_i[c]), arm_j = take8(&b->arm_j[c]);
-        real8 i[8] = {fx, fy, fz, zero, arm_i * x + mx, arm_i * y + my, arm_i * z + mz, zero};
-        real8 j[8] = {-fx, -fy, -fz, zero, arm_j * x - mx, arm_j * y - my, arm_j * z - mz,
-                      zero};
-        turn8(i);
-        turn8(j);
-        for (int k = 0; k < 8; k++) {
-            put8(b->on[0][c + k], i[k]);
-            put8(b->on[1][c + k], j[k]);
-        }
-    }
-}
-
-void laws_pack_line(struct block *b)
-{
-    if (needs() & TOUCH_COUPLES)
-        pack_line(b, true);
-    else
-        pack_line(b, false);
-}
-
-/* The torque of the offsets comes on top. */
-static inline __attribute__((always_inline)) void pack_members(struct block *b, bool couples)
+/* The levers are -arm_i and arm_j times the normal: one product gives both torques. With offsets
+ * (from the centres of grains to those of the members that touch) their torque comes on top. */
+static inline __attribute__((always_inline)) void pack_line(struct block *b, bool couples,
+                                                            bool offsets)
 {
     const struct touch *const t = &b->t;
     const struct levers *const l = &b->l;
@@ -213,24 +182,19 @@ static inline __attribute__((always_inline)) void pack_members(struct block *b, 
         const real8 mz = couples ? take8(&t->mz[c]) : zero;
         const real8 x = nz * fy - ny * fz, y = nx * fz - nz * fx, z = ny * fx - nx * fy;
         const real8 arm_i = take8(&b->arm_i[c]), arm_j = take8(&b->arm_j[c]);
-        const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
-        const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
-        real8 i[8] = {fx,
-                      fy,
-                      fz,
-                      zero,
-                      arm_i * x + mx + (iy * fz - iz * fy),
-                      arm_i * y + my + (iz * fx - ix * fz),
-                      arm_i * z + mz + (ix * fy - iy * fx),
+        real8 i[8] = {fx, fy, fz, zero, arm_i * x + mx, arm_i * y + my, arm_i * z + mz, zero};
+        real8 j[8] = {-fx, -fy, -fz, zero, arm_j * x - mx, arm_j * y - my, arm_j * z - mz,
                       zero};
-        real8 j[8] = {-fx,
-                      -fy,
-                      -fz,
-                      zero,
-                      arm_j * x - mx - (jy * fz - jz * fy),
-                      arm_j * y - my - (jz * fx - jx * fz),
-                      arm_j * z - mz - (jx * fy - jy * fx),
-                      zero};
+        if (offsets) {
+            const real8 ix = take8(&l->ix[c]), iy = take8(&l->iy[c]), iz = take8(&l->iz[c]);
+            const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
+            i[4] += iy * fz - iz * fy;
+            i[5] += iz * fx - ix * fz;
+            i[6] += ix * fy - iy * fx;
+            j[4] -= jy * fz - jz * fy;
+            j[5] -= jz * fx - jx * fz;
+            j[6] -= jx * fy - jy * fx;
+        }
         turn8(i);
         turn8(j);
         for (int k = 0; k < 8; k++) {
@@ -240,12 +204,20 @@ static inline __attribute__((always_inline)) void pack_members(struct block *b, 
     }
 }
 
+void laws_pack_line(struct block *b)
+{
+    if (needs() & TOUCH_COUPLES)
+        pack_line(b, true, false);
+    else
+        pack_line(b, false, false);
+}
+
 void laws_pack_members(struct block *b)
 {
     if (needs() & TOUCH_COUPLES)
-        pack_members(b, true);
+        pack_line(b, true, true);
     else
-        pack_members(b, false);
+        pack_line(b, false, true);
 }
 
 void laws_pack_i(struct block *b)

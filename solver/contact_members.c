@@ -1,10 +1,11 @@
 /* contact_members.c - contacts of grains that are rigid unions of spheres: member against member.
  *
- * A member of a grain with velocity v, spin w, whose centre lies at o from the grain's, is a sphere of
- * velocity v + w x o and spin w: it goes through what spheres go through (contact_spheres.h), in the same
- * blocks, and the force on it acts on the grain with the torque o x f besides its own. So a union of
- * one sphere is a sphere to the last bit. Which members come close is found when active slots are chosen
- * (contact_members_pack.c); walls likewise (contact_members_walls.c). */
+ * A member of a grain with velocity v, spin w, whose centre lies at o from the grain's, is a sphere
+ * of velocity v + w x o and spin w: it goes through what spheres go through (contact_spheres.h), in
+ * the same blocks, and the force on it acts on the grain with the torque o x f besides its own.
+ * (Where all grains are of one sphere they are spheres: contact_round.c.) Which members come close
+ * is found when active slots are chosen (contact_members_pack.c); walls likewise
+ * (contact_members_walls.c). */
 #include "contact_members.h"
 
 #include <string.h>
@@ -15,7 +16,8 @@
 #include "contact_spheres.h"
 #include "turning.h"
 
-/* Where members are and how they are turned: rows of the attitudes of i and j, and of the two members. */
+/* Where members are and how they are turned: rows of the attitudes of i and j, and of the two members.
+ */
 struct turned {
     _Alignas(64) real i[8][TOUCH], j[8][TOUCH];
     real of[8][TOUCH];

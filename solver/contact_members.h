@@ -1,5 +1,6 @@
-/* contact_members.h - the contacts of a run between member spheres, as the loop of contact_members.c keeps
- * them from one choice of active slots to the next (contact_pack.h does the same for spheres). */
+/* contact_members.h - the contacts of a run between member spheres, as the loop of
+ * contact_members.c keeps them from one choice of active slots to the next (contact_pack.h does the
+ * same for spheres). */
 #ifndef CONTACT_MEMBERS_H
 #define CONTACT_MEMBERS_H
 
@@ -59,8 +60,8 @@ void members_prepare(struct sim *s);
 
 /* The record of a contact that was; NULL: there is none. */
 const real *members_record(const struct cut *cut, real *memory, int id);
-/* Marks of the slots, counts, energy, overlaps of a block; single contacts where someone looks. Before the first
- * block of a step that is asked for: nothing is known of its slots. */
+/* Marks of the slots, counts, energy, overlaps of a block; single contacts where someone looks.
+ * Before the first block of a step that is asked for: nothing is known of its slots. */
 void members_report(struct sim *s, struct block *b, struct report *r);
 void members_forget_reports(struct sim *s, bool walls, const int *slot, int count);
 

@@ -1,8 +1,8 @@
 /* contact_members_pack.c - pairs of member spheres between the slots and the blocks of the loop.
  *
- * A slot keeps the memory of its contacts in records (contact_points.h), found by the numbers of the two
- * members. Which members come within the thin skin is the answer of the shape's `points`, asked for a gap of
- * that width: a point of the balls a and b has the id a n_j + b. */
+ * A slot keeps the memory of its contacts in records (contact_points.h), found by the numbers of
+ * the two members. Which members come within the thin skin is the answer of the shape's `points`,
+ * asked for a gap of that width: a point of the balls a and b has the id a n_j + b. */
 #include "contact_members.h"
 
 #include <string.h>
@@ -176,7 +176,8 @@ void members_take(struct sim *s, int run)
     xfree(f.found);
 }
 
-/* Contacts that a law acts on go to the records of their slot; more than it has records for stop the run. */
+/* Contacts that a law acts on go to the records of their slot; more than it has records for stop
+ * the run. */
 void members_put_back(struct sim *s, int run)
 {
     const struct grains *const g = &s->grains;

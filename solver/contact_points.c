@@ -378,8 +378,9 @@ static void fetch(const struct sim *s, const struct cut *cut, int slot)
         __builtin_prefetch(memory + line * 8, 1);
 }
 
-/* m; how far the surfaces of two bodies may have approached each other in the last step: places moved by the
- * velocities at hand, and turns by spins that a tumbling body's own change by little in a step. */
+/* m; how far the surfaces of two bodies may have approached each other in the last step: places
+ * moved by the velocities at hand, and turns by spins that a tumbling body's own change by little
+ * in a step. */
 static double approached(const struct body *i, const struct body *j, double dt)
 {
     const double4 v = __builtin_convertvector(i->vel - j->vel, double4);
@@ -392,8 +393,8 @@ static double approached(const struct body *i, const struct body *j, double dt)
     return slow ? way + 2.0 * (turn_i * a[3] + turn_j * b[3]) : (double)INFINITY;
 }
 
-/* Takes the last step off what parts a pair; is something left? What is left is the second number of the slot's
- * head, 0 for a slot that is not live. */
+/* Takes the last step off what parts a pair; is something left? What is left is the second number
+ * of the slot's head, 0 for a slot that is not live. */
 static bool still_apart(const struct sim *s, const struct slots *l, int slot, real *left)
 {
     if (!(*left > (real)0.0))

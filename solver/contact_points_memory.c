@@ -58,8 +58,8 @@ static int free_record(const struct cut *cut, real *memory, int from)
     return from;
 }
 
-/* Gives new points their records, before any record goes on to this step: a copy is of the last one. Returns
- * up to where records are in use. */
+/* Gives new points their records, before any record goes on to this step: a copy is of the last
+ * one. Returns up to where records are in use. */
 static int start_records(const struct cut *cut, real *memory, int n, int *record,
                          const int *like)
 {

@@ -4,8 +4,9 @@
  * sphere would (contact_facing.h). A convex body without vertices meets an element by a ball of
  * INSET of its size that touches its surface from within at the point that lies deepest: n, the
  * direction from the element's nearest point to the ball, and the farthest point of the body along
- * -n are found by turns. Flat elements may be met by the shape's convex parts instead (meet_flat): a face
- * of a grain is then no stiffer than a vertex. A contact that goes over to another element takes its memory along. */
+ * -n are found by turns. Flat elements may be met by the shape's convex parts instead (meet_flat):
+ * a face of a grain is then no stiffer than a vertex. A contact that goes over to another element
+ * takes its memory along. */
 #include <string.h>
 #include "contact_facing.h"
 #include "contact_points.h"

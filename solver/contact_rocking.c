@@ -1,21 +1,23 @@
 /* contact_rocking.c - what damps two faces that rock on each other.
  *
- * Faces of polyhedra are crowned a little (shapes/geometry/crown.h), so that the force has a potential:
- * such faces roll on each other, and what rights them is the load times the crown's radius, hundreds of
- * times less than what flat faces would bear. The dashpot of the normal force alone, spread over the patch,
- * then hardly damps a tower that sways. So the patch has the dashpot of rocking that flat faces would have at
- * the damping ratio of the law. With k and c the stiffness and the dashpot of the normal force, a rigid flat
- * punch of radius s on an elastic half-space resists to rocking by
+ * Faces of polyhedra are crowned a little (shapes/geometry/crown.h), so that the force has a
+ * potential: such faces roll on each other, and what rights them is the load times the crown's
+ * radius, hundreds of times less than what flat faces would bear. The dashpot of the normal force
+ * alone, spread over the patch, then hardly damps a tower that sways. So the patch has the dashpot
+ * of rocking that flat faces would have at the damping ratio of the law. With k and c the stiffness
+ * and the dashpot of the normal force, a rigid flat punch of radius s on an elastic half-space
+ * resists to rocking by
  *   K = 4/3 E* s^3                                                            [Johnson85, chapter 3]
  * and k = 2 E* sqrt(R* depth), so that with the reduced inertia I* about the contact, rho^2 = I* / m*,
  *   C / c = sqrt(K I* / (k m*)) = rho sqrt(2/3 s^3 / sqrt(R* depth)).
- * s: how far the points that stand for the patch are from its middle; as each bears its share of the couple
- * at its lever, with the variance s^2/2, the dashpot at the point is 2 C/s^2. Of it c is there already.
+ * s: how far the points that stand for the patch are from its middle; as each bears its share of
+ * the couple at its lever, with the variance s^2/2, the dashpot at the point is 2 C/s^2. Of it c is
+ * there already.
  *
  * The couple is what a force E along the normal at the point, and its opposite at the middle, give:
  *   E = - (2 C/s^2 - c) u / (1 + C dt / I*),   u = n . (spin x lever),
- * implicit over the step, stable for any, and |E| <= F_n - c |u|, by which the couple of all is at most F_n s: the middle of
- * the pressure stays within the patch. E u <= 0: it only takes energy. */
+ * implicit over the step, stable for any, and |E| <= F_n - c |u|, by which the couple of all is at
+ * most F_n s: the middle of the pressure stays within the patch. E u <= 0: it only takes energy. */
 #include "contact_points.h"
 
 #include "../contact/contact.h"

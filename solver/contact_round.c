@@ -1,5 +1,5 @@
-/* contact_round.c - contacts of grains that may all be spheres: then by the loop of spheres, to its last
- * bit and at its speed; else by that of clumps (contact_members.c). */
+/* contact_round.c - contacts of grains that may all be spheres: then by the loop of spheres, to its
+ * last bit and at its speed; else by that of clumps (contact_members.c). */
 #include "contact_path.h"
 #include "sim.h"
 #include "turning.h"

@@ -18,7 +18,8 @@ struct wall_block {
     double distance[TOUCH];              /* m, length of look.ax, ay, az */
     double arm[3][TOUCH];                /* m, from the wall's pivot to the centre */
     struct wall_looks look;
-    /* Of the balls: m, centres from those of the grains (0 of spheres), radii; m/s, by the spin of the full step */
+    /* Of the balls: m, centres from those of the grains (0 of spheres), radii; m/s, by the spin of
+     * the full step */
     real off[3][TOUCH], radius[TOUCH], own[3][TOUCH];
     real depth[TOUCH];    /* m, overlap at the last step; below -reach: none */
     real memory[][TOUCH]; /* rows */
@@ -58,8 +59,8 @@ static inline struct wall_block *wall_pack_block(const struct wall_pack *p, int 
 void wall_pack_reserve(void **data, int *room, int n, size_t size);
 /* The active slots of a run by wall, each wall's in their order. */
 void wall_pack_sort(const struct sim *s, struct wall_pack *p, int run);
-/* Packs n entries that are in the order of their walls, grains and balls; `recall` sets depth and memory of a lane
- * whose other numbers are there. */
+/* Packs n entries that are in the order of their walls, grains and balls; `recall` sets depth and
+ * memory of a lane whose other numbers are there. */
 void wall_pack_build(struct sim *s, struct wall_pack *p, const struct wall_entry *e, int n,
                      void (*recall)(const struct sim *s, struct wall_block *b, int c));
 /* Packs the active wall slots of a run; those of its pack go back to their slots. */

@@ -1,5 +1,5 @@
-/* feasibility_coupling.c - the limits of grains and fluid together. Those of two-way coupling were found
- * by ./run.sh extremes (scenes/studies/extremes.study) and hold with the margin that is told. */
+/* feasibility_coupling.c - the limits of grains and fluid together. Those of two-way coupling were
+ * found by ./run.sh extremes (scenes/studies/extremes.study) and hold with the margin that is told. */
 #include "feasibility.h"
 
 #include <string.h>
@@ -60,13 +60,14 @@ static double share_of_cell(const struct sim *s, int grain)
     return fmin(1.0, s->grains.volume[grain] / (h[0] * h[1] * h[2]));
 }
 
-/* Grains much lighter than the fluid: the pressure gradient that moves them is that of the step before,
- * which two-way coupling bears only while the grains in a cell are heavier than what the fluid there
- * makes them follow. Of a suspension of mean solid fraction e: rho_s/rho_f > e (1 - e); edges on 1.5, 8
- * and 20 % at 1.10, 0.99 and 1.06 of it, hence the margin. Of a sphere alone, which fills e of its cell:
- * edges at 0.049, 0.0102, 0.0029, 0.00085 for cells of 1, 2, 4, 8 d, which is 0.055 e^0.6; wider
- * answers of porosity/ bear more. The step enters little: with a quarter and four times of it the edges
- * moved by 20 %. Added mass counts as the grain's own, for its coupling is implicit. */
+/* Grains much lighter than the fluid: the pressure gradient that moves them is that of the step
+ * before, which two-way coupling bears only while the grains in a cell are heavier than what the
+ * fluid there makes them follow. Of a suspension of mean solid fraction e: rho_s/rho_f > e (1 - e);
+ * edges on 1.5, 8 and 20 % at 1.10, 0.99 and 1.06 of it, hence the margin. Of a sphere alone, which
+ * fills e of its cell: edges at 0.049, 0.0102, 0.0029, 0.00085 for cells of 1, 2, 4, 8 d, which is
+ * 0.055 e^0.6; wider answers of porosity/ bear more. The step enters little: with a quarter and
+ * four times of it the edges moved by 20 %. Added mass counts as the grain's own, for its coupling
+ * is implicit. */
 #define LIGHTEST       1.25
 #define LIGHTEST_ALONE 0.07
 #define LIGHTEST_POWER 0.6
@@ -86,10 +87,10 @@ static void lightness_line(const struct sim *s, int species, double solid,
                     "the ratio of densities, added mass with it, must be larger");
 }
 
-/* The viscous force on grains, V div tau, is that of the step before; where drag ties them to the fluid
- * the mixture takes its share e of the stress explicitly: nu dt sum 1/h^2 < 3/e, e the mean solid fraction
- * and what one grain adds to its cell. Edges (implicit viscosity, suspensions of 4, 8 and 15 %, cells of 1,
- * 2, 4 d) at 3.2 to 5.2/e, 4.1 after four times as long. */
+/* The viscous force on grains, V div tau, is that of the step before; where drag ties them to the
+ * fluid the mixture takes its share e of the stress explicitly: nu dt sum 1/h^2 < 3/e, e the mean
+ * solid fraction and what one grain adds to its cell. Edges (implicit viscosity, suspensions of 4,
+ * 8 and 15 %, cells of 1, 2, 4 d) at 3.2 to 5.2/e, 4.1 after four times as long. */
 #define STRESS_SHARE 3.0
 
 static void stress_line(const struct sim *s, int species, double solid, struct feasibility *f)

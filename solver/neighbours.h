@@ -62,8 +62,8 @@ void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 
-/* A thread reports the square of the largest speed among its grains, and of those of their parts by spins,
- * for a step whose parity is that of `step`. */
+/* A thread reports the square of the largest speed among its grains, and of those of their parts by
+ * spins, for a step whose parity is that of `step`. */
 void neighbours_speed(struct sim *s, int step, double square, double tip);
 
 /* How old the lists are, as every thread of a team counts it for itself. */

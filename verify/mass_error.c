@@ -1,18 +1,21 @@
-/* verify/mass_error.c - what the background grid costs in accuracy: volume, centre and inertia of grains of
- * several dilated polyhedra against exact ones, for spacings of the grid (grains.mass_spacing).
+/* verify/mass_error.c - what the background grid costs in accuracy: volume, centre and inertia of
+ * grains of several dilated polyhedra against exact ones, for spacings of the grid
+ * (grains.mass_spacing).
  *
- * Cube, tetrahedron, dodecahedron: each is cut by two planes into halves that overlap, which together
- * are the whole again, dilated as well: volume by Steiner's formula V + S r + M r^2 + 4/3 pi r^3
- * [Steiner1840], centre and moments in closed form (shapes/geometry/moments.c).
- * The letter T, concave: cut across by a plane of constant x it is a T of two rectangles dilated by
- * s = sqrt(r^2 - d^2), where d is how far outside of the core the plane is. Its width is known at every
- * height; integrals over height and x are by Gauss's rule, of pieces in which the width is smooth. The
- * volume so found is checked against
+ * Cube, tetrahedron, dodecahedron: each is cut by two planes into halves that overlap, which
+ * together are the whole again, dilated as well: volume by Steiner's formula V + S r + M r^2 + 4/3
+ * pi r^3 [Steiner1840], centre and moments in closed form (shapes/geometry/moments.c). The letter
+ * T, concave: cut across by a plane of constant x it is a T of two rectangles dilated by s =
+ * sqrt(r^2 - d^2), where d is how far outside of the core the plane is. Its width is known at every
+ * height; integrals over height and x are by Gauss's rule, of pieces in which the width is smooth.
+ * The volume so found is checked against
  *     V = 30 A(r) + 2 A r + P pi r^2 / 2 + (6 pi / 4 - 2) 4/3 r^3,  A(s) = A + P s + (6 pi / 4 - 2) s^2,
- * with area A and girth P of a T that has six corners which stand out, of pi / 4 each, and two which do not.
+ * with area A and girth P of a T that has six corners which stand out, of pi / 4 each, and two
+ * which do not.
  *
  * mass_error FOLDER writes FOLDER/NAME.dat, a line a spacing: spacing over the volume-equivalent
- * diameter; errors of volume (relative), centre (of a diameter), inertia (the worst of three, relative). */
+ * diameter; errors of volume (relative), centre (of a diameter), inertia (the worst of three,
+ * relative). */
 /* slots: shapes/multi_dilated_polyhedron */
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_integration.h>

@@ -9,8 +9,9 @@ enum { ROUNDS = 100, LANES = POLYHEDRON_LANES };
 #define FLAT  1e-13 /* of the size: a gain in height that round-off hides */
 #define TIGHT 1e-14 /* of the size: the points are on one line */
 
-/* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, with log 2 in two parts [CodyWaite80], Taylor's series of f.
- * Ours, as libm's works one number at a time, and the bits of its vectors change with the machine. */
+/* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, with log 2 in two parts [CodyWaite80], Taylor's
+ * series of f. Ours, as libm's works one number at a time, and the bits of its vectors change with
+ * the machine. */
 static inline lanes exponential(lanes x)
 {
     const lanes low = {-700, -700, -700, -700, -700, -700, -700, -700};

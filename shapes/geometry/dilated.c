@@ -1,9 +1,10 @@
 /* shapes/geometry/dilated.c - a body of dilated polyhedra: its size, mass, centre and axes.
  *
- * One part: Steiner's formula and exact moments. Several that overlap: a background grid whose cells
- * count as far as they are inside, with the cell's own moment [LiLiuJi23, eqs 2-11; there they count in
- * full where their middles are inside, and eqs 6 to 8 leave out the cell's own moment]. The body is scaled until its
- * volume is that of the sphere of its size, with the ball's radius held. */
+ * One part: Steiner's formula and exact moments. Several that overlap: a background grid whose
+ * cells count as far as they are inside, with the cell's own moment [LiLiuJi23, eqs 2-11; there
+ * they count in full where their middles are inside, and eqs 6 to 8 leave out the cell's own
+ * moment]. The body is scaled until its volume is that of the sphere of its size, with the ball's
+ * radius held. */
 #include "dilated.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* shapes/geometry/dilated_facet.c - where a part of a body of dilated polyhedra lies nearest to a flat piece
- * of a wall.
+/* shapes/geometry/dilated_facet.c - where a part of a body of dilated polyhedra lies nearest to a
+ * flat piece of a wall.
  *
  * The gap is the greatest over all normals m of -s(-m) - max_b (m b), s the support function of the
  * crowned core (crown.h), b the corners of the piece: on its face m is that of the face, on an edge
@@ -126,10 +126,10 @@ static void find_beside(const struct crown *a, const struct piece *f, const stru
     g->on_a = exact->on_a;
 }
 
-/* What find() gives counts as long as the plane lies outside of the core. A body that hangs past an edge, its
- * centre beyond the plane, may have its farthest point abreast of the piece, which it does not reach all the
- * same: then the nearest points tell. Where the piece cuts the core each of its sides has a gap of its own, and
- * the greater counts. */
+/* What find() gives counts as long as the plane lies outside of the core. A body that hangs past an
+ * edge, its centre beyond the plane, may have its farthest point abreast of the piece, which it
+ * does not reach all the same: then the nearest points tell. Where the piece cuts the core each of
+ * its sides has a gap of its own, and the greater counts. */
 static bool find_side(const struct crown *a, const struct polyhedron *core,
                       const struct piece *f, double reach, bool *face, struct crown_gap *g)
 {

@@ -1,4 +1,4 @@
-/* shapes/geometry/dilated_species.c - reads the keys of [grains NAME] for shapes of dilated polyhedra. */
+/* shapes/geometry/dilated_species.c - the keys of [grains NAME] for shapes of dilated polyhedra. */
 #include "dilated_species.h"
 
 #include <string.h>

@@ -1,9 +1,11 @@
-/* shapes/geometry/envelope.h - the smoothed envelope of a dilated polyhedron as a way to find contacts.
+/* shapes/geometry/envelope.h - the smoothed envelope of a dilated polyhedron as a way to find
+ * contacts.
  *
- * f(x) = (1 - k) (sum_f <n_f x - d_f>^2 / r^2 - 1) + k (x^2 / R^2 - 1), <y> = max(y, 0), R the radius of
- * the ball about its middle that holds the body: f < 0 inside [LiLiuJi23, eq. 12; Houlsby09]. For k -> 0
- * it is the dilated polyhedron on faces and at right-angled edges and vertices; it is blunter where
- * faces meet at sharper angles and sharper at wider ones, and k rounds and shrinks it. */
+ * f(x) = (1 - k) (sum_f <n_f x - d_f>^2 / r^2 - 1) + k (x^2 / R^2 - 1), <y> = max(y, 0), R the
+ * radius of the ball about its middle that holds the body: f < 0 inside [LiLiuJi23, eq. 12;
+ * Houlsby09]. For k -> 0 it is the dilated polyhedron on faces and at right-angled edges and
+ * vertices; it is blunter where faces meet at sharper angles and sharper at wider ones, and k
+ * rounds and shrinks it. */
 #ifndef ENVELOPE_H
 #define ENVELOPE_H
 

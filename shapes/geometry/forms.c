@@ -1,12 +1,12 @@
 /* shapes/geometry/forms.c - named solids.
  *
  * Cube, tetrahedron, octahedron, icosahedron and dodecahedron are the regular ones; prism and
- * pyramid have a regular base and are as high as an equilateral one of three sides is wide; wedge is
- * half a cube. cone_pair: two cut pyramids that meet at their narrow ends, upright and upside down
- * [LiLiuJi23, fig. 5]; tetrapod: four legs from the centre to the corners of a tetrahedron; dolos:
- * a stem and two flukes at right angles [MerrifieldZwamborn66]; cross: three bars at right angles; hollow_box:
- * the twelve edges of a cube as bars. The letters are 100 wide and 180 high, of strokes 30 by 30
- * [LiLiuJi23, fig. 10]. */
+ * pyramid have a regular base and are as high as an equilateral one of three sides is wide; wedge
+ * is half a cube. cone_pair: two cut pyramids that meet at their narrow ends, upright and upside
+ * down [LiLiuJi23, fig. 5]; tetrapod: four legs from the centre to the corners of a tetrahedron;
+ * dolos: a stem and two flukes at right angles [MerrifieldZwamborn66]; cross: three bars at right
+ * angles; hollow_box: the twelve edges of a cube as bars. The letters are 100 wide and 180 high, of
+ * strokes 30 by 30 [LiLiuJi23, fig. 10]. */
 #include "forms.h"
 
 #include <string.h>

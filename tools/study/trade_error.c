@@ -43,8 +43,10 @@ static double mean_of(const struct trade *t, const int *choice, const char *key,
 static void mean_costs(struct trade *t)
 {
     const int n = t->study.n;
+    if (t->mean < 0)
+        return;
     double *const cost = xalloc((size_t)n + 1, sizeof *cost);
-    for (int i = 0; t->mean >= 0 && i < n; i++) {
+    for (int i = 0; i < n; i++) {
         double sum = 0.0;
         int found = 0;
         for (int k = 0; k < n; k++)
@@ -55,7 +57,7 @@ static void mean_costs(struct trade *t)
             }
         cost[i] = isfinite(t->cost[i]) ? sum / found : (double)NAN;
     }
-    for (int i = 0; t->mean >= 0 && i < n; i++)
+    for (int i = 0; i < n; i++)
         t->cost[i] = cost[i];
     xfree(cost);
 }
