@@ -1,7 +1,7 @@
 /* mesh_read.c - STL, binary and ASCII [StereoLithography89].
  *
  * Binary: 80 bytes of anything, the number of triangles, and 50 bytes for each: normal, three corners,
- * two bytes. ASCII: "solid", facets of three vertices, "endsolid". Many binary files begin with "solid"
+ * two bytes. ASCII: "solid", facets of three vertices, "endsolid"; several solids make one surface. Many binary files begin with "solid"
  * all the same, so the size decides. Normals are not read: they follow from the corners. */
 #include "mesh.h"
 
@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 enum { HEAD = 84, FACET = 50, TRIANGLES_MOST = 20000000 };
@@ -92,7 +93,17 @@ static char *read_words(struct words *w, const char *path, const char *const *li
     return NULL;
 }
 
-/* The facets after the line "solid NAME". */
+/* To the facets of the next solid; false if none follows. Names may hold blanks: they end with their line. */
+static bool next_solid(struct words *w)
+{
+    w->at += strcspn(w->at, "\n");
+    if (!next_word(w) || strcmp(w->word, "solid") != 0)
+        return false;
+    w->at += strcspn(w->at, "\n");
+    return true;
+}
+
+/* The facets after the line "solid NAME", of all solids of the file. */
 static char *read_ascii(const char *text, const char *path, vec3 **corner, int *n)
 {
     static const char *const before[] = {"normal", "*", "*", "*", "outer", "loop", NULL};
@@ -104,8 +115,11 @@ static char *read_ascii(const char *text, const char *path, vec3 **corner, int *
     while (!why) {
         if (!next_word(&w))
             return expected(path, &w, "facet or endsolid");
-        if (strcmp(w.word, "endsolid") == 0)
-            return NULL;
+        if (strcmp(w.word, "endsolid") == 0) {
+            if (!next_solid(&w))
+                return w.word[0] ? expected(path, &w, "solid") : NULL;
+            continue;
+        }
         if (strcmp(w.word, "facet") != 0)
             return expected(path, &w, "facet or endsolid");
         if (*n == room) {
@@ -152,7 +166,7 @@ static char *wrong_size(const char *path, size_t size, double wanted, double tri
 static char *read_data(const unsigned char *data, size_t size, const char *path, vec3 **corner,
                        int *n)
 {
-    const bool solid = size >= 6 && memcmp(data, "solid", 5) == 0;
+    const bool solid = size >= 6 && strncasecmp((const char *)data, "solid", 5) == 0;
     const bool text = solid && memchr(data, '\0', size) == NULL;
     const double triangles = size >= HEAD ? (double)little(data + 80) : 0.0;
     const double wanted = HEAD + FACET * triangles;

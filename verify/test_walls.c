@@ -235,7 +235,9 @@ static void check_edges(void)
     check(contacts(valley, 4, "position = 27 30 22.65 mm\n") == 2, "in a valley: two contacts");
 }
 
-static void expect_refused(const char *name, const void *data, size_t size, const char *why)
+/* An STL file of these bytes is refused for a reason with `why` in it, or (NULL) holds `count` triangles. */
+static void read_file(const char *name, const void *data, size_t size, const char *why,
+                      int count)
 {
     char path[] = "/tmp/silt-stl-XXXXXX";
     const int fd = mkstemp(path);
@@ -245,12 +247,21 @@ static void expect_refused(const char *name, const void *data, size_t size, cons
     char *reason = NULL;
     vec3 *const corner = mesh_read_stl(path, &n, &reason);
     struct mesh *const m = corner ? mesh_create(corner, n, &reason) : NULL;
-    check(written && !m && reason && strstr(reason, why), "%s is refused: %s", name,
-          reason ? reason : "(it is not)");
+    if (why)
+        check(written && !m && reason && strstr(reason, why), "%s is refused: %s", name,
+              reason ? reason : "(it is not)");
+    else
+        check(written && m && n == count, "%s: %d of %d triangles, %s", name, n, count,
+              reason ? reason : "read");
     unlink(path);
     mesh_free(m);
     xfree(corner);
     xfree(reason);
+}
+
+static void expect_refused(const char *name, const void *data, size_t size, const char *why)
+{
+    read_file(name, data, size, why, 0);
 }
 
 #define FACET(c)                                                                               \
@@ -273,6 +284,12 @@ static void check_files(void)
     binary[80] = 3;
     expect_refused("a binary file that ends", binary, sizeof binary, "is truncated: its head");
     binary[80] = 1;
+    const char *const two =
+        "SOLID upper half\r\n" FACET("0 1 0") "endsolid\nsolid b c\n" FACET("0 2 0")
+            FACET("0 3 0") "endsolid b c\n";
+    const char *const junk = "solid a\n" FACET("0 1 0") "endsolid a\nfacet";
+    read_file("two solids in one file", two, strlen(two), NULL, 3);
+    expect_refused("words after a solid", junk, strlen(junk), "where solid is expected");
     expect_refused("a wrong count", binary, sizeof binary, "wrong count");
 }
 

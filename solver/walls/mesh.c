@@ -41,7 +41,7 @@ static void *read(struct scene *scene, const char *name, const struct domain *d)
     for (int a = 0; a < 3; a++)
         longest[a] = d->periodic[a] ? 0.4 * d->size[a] : (double)INFINITY;
     for (int i = 0; corner && i < 3 * n; i++)
-        corner[i] = v3_add(shift, turn(v3_scale(scale, corner[i]), angle));
+        corner[i] = v3_add(shift, turn(v3_scale(scale > 0.0 ? scale : 1.0, corner[i]), angle));
     if (corner) {
         const int found = n;
         m = mesh_create(corner, n, &why);
