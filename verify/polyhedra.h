@@ -144,4 +144,47 @@ static inline double brute_distance(const struct polyhedron *pa, const struct po
     return least;
 }
 
+/* What of one cube touches what of the other. */
+enum meeting { FACES, EDGES, CORNER, ANYWHERE, PARALLEL_EDGES, ROD };
+
+static const char *const meeting_name[] = {"face to face",      "edge to edge",
+                                           "vertex to face",    "anywhere",
+                                           "edges in parallel", "long rod and plate"};
+
+/* Turns cube a so that its face, edge or vertex looks along -z; then the whole pair is turned. */
+static inline void set_pair(gsl_rng *r, enum meeting how, double gap, double spread,
+                            struct placed *a, struct placed *b)
+{
+    vec3 first[3], second[3], whole[3], spin[3];
+    const double c = 1.0 / sqrt(2.0), h = 0.5;
+    double up = h + h;
+    turn_about(v3(0.0, 0.0, 1.0), between(r, 0.0, 6.0), spin);
+    turn_about(v3(0.0, 0.0, 1.0), 0.0, first);
+    turn_about(v3(0.0, 0.0, 1.0), 0.0, second);
+    vec3 aside = {between(r, -0.7, 0.7), between(r, -0.7, 0.7), 0.0};
+    if (how == EDGES || how == PARALLEL_EDGES) {
+        turn_about(v3(1.0, 0.0, 0.0), 0.25 * PI, first);
+        turn_about(v3(1.0, 0.0, 0.0), 0.25 * PI, second);
+        up = c + c;
+        aside = how == EDGES ? v3(between(r, -0.3, 0.3), between(r, -0.3, 0.3), 0.0)
+                             : v3(between(r, -0.9, 0.9), 0.0, 0.0);
+        if (how == PARALLEL_EDGES)
+            turn_about(v3(0.0, 0.0, 1.0), 0.0, spin);
+    } else if (how == CORNER) {
+        const vec3 diagonal = v3_scale(1.0 / sqrt(3.0), v3(1.0, 1.0, 1.0));
+        const vec3 axis = v3_cross(diagonal, v3(0.0, 0.0, -1.0));
+        turn_about(v3_scale(1.0 / v3_norm(axis), axis), acos(-diagonal.z), first);
+        up = h + 0.5 * sqrt(3.0);
+        aside = v3_scale(0.6, aside);
+    }
+    turn_about(any_direction(r), between(r, 0.0, 3.0), whole);
+    for (int k = 0; k < 3; k++) {
+        a->axes[k] = turned_by(whole, turned_by(spin, first[k]));
+        b->axes[k] = turned_by(whole, second[k]);
+    }
+    b->at = v3_scale(3.0, any_direction(r));
+    a->at = v3_add(b->at,
+                   turned_by(whole, v3_add(v3_scale(spread, aside), v3(0.0, 0.0, up + gap))));
+}
+
 #endif

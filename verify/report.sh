@@ -133,7 +133,7 @@ sections() {
 
 figures() {
     local f
-    for f in "$from"/scenes/*/{settling,pressure_drop,rebound,discharge,cavity_u,cavity_v,profile,head,bubbling_bed}.png "$from"/mass_error.png docs/drag_*.png; do
+    for f in "$from"/scenes/*/{settling,pressure_drop,rebound,discharge,cavity_u,cavity_v,profile,head,bubbling_bed}.png "$from"/{mass_error,detectors}.png docs/drag_*.png; do
         [ -e "$f" ] && picture "$f" "$(basename "$(dirname "$f")" | sed 's/^docs$/closures/'): $(basename "$f" .png)"
     done
 }

@@ -4,58 +4,15 @@
 
 enum { TURNS = 1000 };
 
-/* What of a touches what of b. */
-enum meeting { FACES, EDGES, CORNER, ANYWHERE, PARALLEL_EDGES, ROD };
-
-static const char *const meeting_name[] = {"face to face",      "edge to edge",
-                                           "vertex to face",    "anywhere",
-                                           "edges in parallel", "long rod and plate"};
-
-/* Turns cube a so that its face, edge or vertex looks along -z; then the whole pair is turned. */
-static void set_pair(gsl_rng *r, enum meeting how, double gap, double spread, struct placed *a,
-                     struct placed *b)
-{
-    vec3 first[3], second[3], whole[3], spin[3];
-    const double c = 1.0 / sqrt(2.0), h = 0.5;
-    double up = h + h;
-    turn_about(v3(0.0, 0.0, 1.0), between(r, 0.0, 6.0), spin);
-    turn_about(v3(0.0, 0.0, 1.0), 0.0, first);
-    turn_about(v3(0.0, 0.0, 1.0), 0.0, second);
-    vec3 aside = {between(r, -0.7, 0.7), between(r, -0.7, 0.7), 0.0};
-    if (how == EDGES || how == PARALLEL_EDGES) {
-        turn_about(v3(1.0, 0.0, 0.0), 0.25 * PI, first);
-        turn_about(v3(1.0, 0.0, 0.0), 0.25 * PI, second);
-        up = c + c;
-        aside = how == EDGES ? v3(between(r, -0.3, 0.3), between(r, -0.3, 0.3), 0.0)
-                             : v3(between(r, -0.9, 0.9), 0.0, 0.0);
-        if (how == PARALLEL_EDGES)
-            turn_about(v3(0.0, 0.0, 1.0), 0.0, spin);
-    } else if (how == CORNER) {
-        const vec3 diagonal = v3_scale(1.0 / sqrt(3.0), v3(1.0, 1.0, 1.0));
-        const vec3 axis = v3_cross(diagonal, v3(0.0, 0.0, -1.0));
-        turn_about(v3_scale(1.0 / v3_norm(axis), axis), acos(-diagonal.z), first);
-        up = h + 0.5 * sqrt(3.0);
-        aside = v3_scale(0.6, aside);
-    }
-    turn_about(any_direction(r), between(r, 0.0, 3.0), whole);
-    for (int k = 0; k < 3; k++) {
-        a->axes[k] = turned_by(whole, turned_by(spin, first[k]));
-        b->axes[k] = turned_by(whole, second[k]);
-    }
-    b->at = v3_scale(3.0, any_direction(r));
-    a->at = v3_add(b->at,
-                   turned_by(whole, v3_add(v3_scale(spread, aside), v3(0.0, 0.0, up + gap))));
-}
-
-static void check_cubes(gsl_rng *r, enum meeting how)
+static void check_cubes(gsl_rng *r, enum meeting how, int turns, double least)
 {
     struct polyhedron *const p = box_of(v3(1.0, 1.0, 1.0), v3(0.0, 0.0, 0.0));
     static struct placed a, b;
     double worst = 0.0, nearness = 0.0, off = 0.0;
-    for (int k = 0; k < TURNS; k++) {
+    for (int k = 0; k < turns; k++) {
         struct gap_memory memory = {0};
         struct gap gap;
-        set_pair(r, how, pow(10.0, between(r, -6.0, 0.0)), 1.0, &a, &b);
+        set_pair(r, how, pow(10.0, between(r, least, 0.0)), 1.0, &a, &b);
         place(&a, p);
         place(&b, p);
         gap_find(&a.points, p, &b.points, p, b.axes, 1e9, &memory, &gap);
@@ -65,7 +22,7 @@ static void check_cubes(gsl_rng *r, enum meeting how)
         nearness = fmax(nearness, gap.distance - gap_along(&a.points, &b.points, gap.normal));
     }
     check(worst < 1e-10, "two cubes %s, %d turns: distance within %.2g of brute force",
-          meeting_name[how], TURNS, worst);
+          meeting_name[how], turns, worst);
     /* a difference of places has a direction to 1e-16 of the places: of a gap of 1e-6, 1e-10 */
     check(nearness < 1e-9 && off < 1e-9,
           "  the normal tells the distance within %.2g, the points within %.2g", nearness, off);
@@ -170,7 +127,9 @@ int main(void)
     gsl_rng_set(r, 61);
     for (enum meeting how = FACES; how <= PARALLEL_EDGES; how++)
         if (how != ANYWHERE)
-            check_cubes(r, how);
+            check_cubes(r, how, TURNS, -6.0);
+    /* some have three corners of the differences on a line, which the nearest point is on */
+    check_cubes(r, FACES, 20 * TURNS, -1.0);
     check_hulls(r);
     check_overlap(r);
     check_reach(r);

@@ -113,7 +113,8 @@ value() {
     section packing "How densely spheres pack (one thread; 3 packings of 2000, 3000 poured)" verify/packing.sh
     section mass_error "Volume, centre and inertia over a grid against exact ones; its picture is below" \
         verify/mass_error.sh "$keep"
-    section dilated "Dilated polyhedra in long runs: cores of nothing, stacks of ten cubes" timeout 900 verify/dilated.sh
+    section dilated "Dilated polyhedra: detectors of contacts (picture below), cores of nothing, stacks of ten cubes" \
+        timeout 900 verify/dilated.sh "$keep"
     section ellipsoids "How densely ellipsoids without friction pack" timeout 900 verify/ellipsoids.sh
     section polyhedra_packing "How densely cubes and octahedra without friction pack" \
         timeout 1200 verify/polyhedra_packing.sh

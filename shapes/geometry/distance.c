@@ -112,8 +112,28 @@ static vec3 on_corner(struct simplex *s, int i)
     return s->w[0];
 }
 
+/* Of a triangle without width: the nearest of its sides. */
+static vec3 nearest_of_sides(struct simplex *s)
+{
+    static const int side[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    struct simplex best = {0};
+    vec3 v = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 3; k++) {
+        struct simplex one = *s;
+        keep(&one, side[k], 2);
+        const vec3 x = nearest_of_segment(&one);
+        if (best.n > 0 && v3_dot(x, x) >= v3_dot(v, v))
+            continue;
+        best = one;
+        v = x;
+    }
+    *s = best;
+    return v;
+}
+
 /* [Ericson05, p. 141]. In the inner region the point is the foot on the plane, by the normal: its
- * direction then has no error of the parts. */
+ * direction then has no error of the parts. Where foot and parts are further apart than the triangle
+ * is wide, its corners are on a line but for round-off: parallel edges make such ones. */
 static vec3 nearest_of_triangle(struct simplex *s)
 {
     const vec3 a = s->w[0], b = s->w[1], c = s->w[2], ab = v3_sub(b, a), ac = v3_sub(c, a);
@@ -134,10 +154,14 @@ static vec3 nearest_of_triangle(struct simplex *s)
         return on_edge(s, 1, 2, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     const double sum = va + vb + vc;
     const vec3 n = v3_cross(ab, ac);
+    if (!(sum > 0.0) || !(v3_dot(n, n) > 0.0))
+        return nearest_of_sides(s);
     s->part[1] = vb / sum;
     s->part[2] = vc / sum;
     s->part[0] = 1.0 - s->part[1] - s->part[2];
-    return v3_scale(v3_dot(n, a) / v3_dot(n, n), n);
+    const vec3 foot = v3_scale(v3_dot(n, a) / v3_dot(n, n), n), off = v3_sub(foot, blend(s));
+    const double longest = fmax(v3_dot(ab, ab), v3_dot(ac, ac));
+    return v3_dot(off, off) * longest <= v3_dot(n, n) ? foot : nearest_of_sides(s);
 }
 
 static void pick(const struct simplex *s, const int *corner, struct simplex *out)
