@@ -100,7 +100,8 @@ static bool meets(const struct sample *s)
 }
 
 /* Returns how far the distance is from brute force. */
-static double fill(gsl_rng *r, const struct dilated *cube, enum meeting how, struct sample *s)
+static double fill(gsl_rng *r, const struct dilated *cube, enum cubes_meet how,
+                   struct sample *s)
 {
     const struct polyhedron *const p = cube->part[0].core;
     const double side = side_of(cube);
@@ -195,7 +196,7 @@ static void label(double k, char text[16])
 static bool errors(FILE *file)
 {
     static struct sample sample[TURNS];
-    const enum meeting how[] = {FACES, EDGES, CORNER};
+    const enum cubes_meet how[] = {FACES, EDGES, CORNER};
     struct dilated *const cube = body(0);
     gsl_rng *const r = gsl_rng_alloc(gsl_rng_mt19937);
     bool good = true;
@@ -207,8 +208,8 @@ static bool errors(FILE *file)
         double worst = 0.0;
         for (int n = 0; n < TURNS; n += meets(&sample[n]))
             worst = fmax(worst, fill(r, cube, how[h], &sample[n]));
-        printf("  cubes %s, %d turns: GJK within %.2g of brute force\n", meeting_name[how[h]],
-               TURNS, worst);
+        printf("  cubes %s, %d turns: GJK within %.2g of brute force\n",
+               cubes_meet_name[how[h]], TURNS, worst);
         good = good && worst < 1e-10;
         for (int d = 0; d < KS; d++) {
             all[d].k = ks[d];

@@ -145,14 +145,14 @@ static inline double brute_distance(const struct polyhedron *pa, const struct po
 }
 
 /* What of one cube touches what of the other. */
-enum meeting { FACES, EDGES, CORNER, ANYWHERE, PARALLEL_EDGES, ROD };
+enum cubes_meet { FACES, EDGES, CORNER, ANYWHERE, PARALLEL_EDGES, ROD };
 
-static const char *const meeting_name[] = {"face to face",      "edge to edge",
-                                           "vertex to face",    "anywhere",
-                                           "edges in parallel", "long rod and plate"};
+static const char *const cubes_meet_name[] = {"face to face",      "edge to edge",
+                                              "vertex to face",    "anywhere",
+                                              "edges in parallel", "long rod and plate"};
 
 /* Turns cube a so that its face, edge or vertex looks along -z; then the whole pair is turned. */
-static inline void set_pair(gsl_rng *r, enum meeting how, double gap, double spread,
+static inline void set_pair(gsl_rng *r, enum cubes_meet how, double gap, double spread,
                             struct placed *a, struct placed *b)
 {
     vec3 first[3], second[3], whole[3], spin[3];

@@ -4,7 +4,7 @@
 
 enum { TURNS = 1000 };
 
-static void check_cubes(gsl_rng *r, enum meeting how, int turns, double least)
+static void check_cubes(gsl_rng *r, enum cubes_meet how, int turns, double least)
 {
     struct polyhedron *const p = box_of(v3(1.0, 1.0, 1.0), v3(0.0, 0.0, 0.0));
     static struct placed a, b;
@@ -22,7 +22,7 @@ static void check_cubes(gsl_rng *r, enum meeting how, int turns, double least)
         nearness = fmax(nearness, gap.distance - gap_along(&a.points, &b.points, gap.normal));
     }
     check(worst < 1e-10, "two cubes %s, %d turns: distance within %.2g of brute force",
-          meeting_name[how], turns, worst);
+          cubes_meet_name[how], turns, worst);
     /* a difference of places has a direction to 1e-16 of the places: of a gap of 1e-6, 1e-10 */
     check(nearness < 1e-9 && off < 1e-9,
           "  the normal tells the distance within %.2g, the points within %.2g", nearness, off);
@@ -77,11 +77,11 @@ static void check_overlap(gsl_rng *r)
         struct gap_memory memory = {0};
         struct gap gap, apart;
         gsl_rng *const again = gsl_rng_clone(r);
-        set_pair(r, (enum meeting)(1 + k % 2), -depth, 0.0, &a, &b);
+        set_pair(r, (enum cubes_meet)(1 + k % 2), -depth, 0.0, &a, &b);
         place(&a, p);
         place(&b, p);
         gap_find(&a.points, p, &b.points, p, b.axes, 1e9, &memory, &gap);
-        set_pair(again, (enum meeting)(1 + k % 2), 1e-3, 0.0, &a, &b);
+        set_pair(again, (enum cubes_meet)(1 + k % 2), 1e-3, 0.0, &a, &b);
         place(&a, p);
         place(&b, p);
         gap_find(&a.points, p, &b.points, p, b.axes, 1e9, &memory, &apart);
@@ -125,7 +125,7 @@ int main(void)
 {
     gsl_rng *const r = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(r, 61);
-    for (enum meeting how = FACES; how <= PARALLEL_EDGES; how++)
+    for (enum cubes_meet how = FACES; how <= PARALLEL_EDGES; how++)
         if (how != ANYWHERE)
             check_cubes(r, how, TURNS, -6.0);
     /* some have three corners of the differences on a line, which the nearest point is on */
