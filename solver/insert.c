@@ -271,9 +271,10 @@ static void tell_ledger(struct sim *s, const struct traffic *before)
 void insert_step(struct sim *s)
 {
     struct traffic *const t = &s->traffic;
-    if (!insert_changes(s))
+    const int record = s->fluid.exists ? s->run.substeps : s->run.record;
+    if (!insert_changes(s) || (!s->fluid.exists && s->clock % record != 0))
         return;
-    const double step = s->run.dt * s->run.substeps, slack = 1e-6 * s->run.dt;
+    const double step = s->run.dt * record, slack = 1e-6 * s->run.dt;
     const struct traffic before = *t;
     int changes = t->n_sinks > 0 ? remove_leavers(s) : 0;
     for (int k = 0; k < t->n_sources; k++) {

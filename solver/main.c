@@ -17,6 +17,7 @@
 #include "probes.h"
 #include "progress.h"
 #include "provenance_info.h"
+#include "run.h"
 #include "settle.h"
 #include "sim.h"
 #include "step.h"
@@ -132,13 +133,14 @@ static void summarise(struct sim *s, double begin)
 /* Steps to the end, or to a signal; returns the exit code. */
 static int advance(struct sim *s)
 {
-    const double end = s->run.end - 1e-9 * s->run.dt * s->run.substeps;
+    const double end = s->run.end - 1e-6 * s->run.dt;
     const double cells = (double)s->grid.n[0] * s->grid.n[1] * s->grid.n[2];
     double next_output = s->run.output_every, next_sample = s->run.series_every;
     struct progress progress;
     progress_start(&progress, 0.0, s->run.end, "running");
     while (s->t < end && !s->run.done && !caught) {
         const double before = s->grain_steps;
+        run_until(s, s->run.series_asked ? fmin(next_output, next_sample) : next_output);
         step(s);
         const double clock = wall_clock(), slack = 1e-9 * s->run.end;
         probes_watch(s);

@@ -11,8 +11,9 @@ const struct key run_keys[] = {
      "time step of the grains; auto: run.safety of the shortest limit"},
     {"run", "safety", KEY_REAL, "1", "(0, 1]", "0.2", "part of the limit that dt = auto takes"},
     {"run", "substeps", KEY_INT, "", "[1, 1000000]", "100",
-     "grain steps per record of the ledger in a dry scene (with a fluid: fluid.dt over "
-     "run.dt)"},
+     "grain steps per record of the ledger in a dry scene, fewer where an output is due (with "
+     "a "
+     "fluid: fluid.dt over run.dt)"},
     {"run", "settle_time", KEY_REAL, "s", "(0, inf)", "10 s",
      "longest settling for fill = settle; a bed that moves still is refused"},
     {"run", "settle_energy", KEY_REAL, "1", "(0, 1)", "1e-5",
@@ -58,15 +59,15 @@ void run_read(struct sim *s, struct scene *scene)
     scene_choice(scene, "output", NULL, "slice"); /* for the pictures: read from run.nc */
     if (!scene_word(scene, "output", NULL, "slice_at", "middle"))
         scene_real(scene, "output", NULL, "slice_at");
-    r->series_every = scene_word(scene, "output", NULL, "series", "auto")
-                          ? r->end / 500.0
-                          : scene_real(scene, "output", NULL, "series");
+    r->series_asked = !scene_word(scene, "output", NULL, "series", "auto");
+    r->series_every =
+        r->series_asked ? scene_real(scene, "output", NULL, "series") : r->end / 500.0;
 }
 
 void run_steps(struct sim *s, struct scene *scene)
 {
     struct run *const r = &s->run;
-    r->substeps = scene_int(scene, "run", NULL, "substeps");
+    r->substeps = r->record = scene_int(scene, "run", NULL, "substeps");
     if (scene_word(scene, "run", NULL, "dt", "auto")) {
         const double limit = feasibility_grain_limit(s);
         r->dt = scene_real(scene, "run", NULL, "safety") * limit;
@@ -95,4 +96,15 @@ void run_steps(struct sim *s, struct scene *scene)
                         s->fluid.dt);
         r->dt = s->fluid.dt / r->substeps;
     }
+}
+
+void run_until(struct sim *s, double due)
+{
+    struct run *const r = &s->run;
+    if (s->fluid.exists)
+        return;
+    const double left = ceil((fmin(due, r->end) - s->t) / r->dt - 1e-6);
+    r->substeps = r->record - (int)(s->clock % r->record);
+    if (left < r->substeps)
+        r->substeps = left > 1.0 ? (int)left : 1;
 }

@@ -14,4 +14,8 @@ void run_read(struct sim *s, struct scene *scene);
  * step is a whole number of the grains' steps, which are shortened for it. */
 void run_steps(struct sim *s, struct scene *scene);
 
+/* Of a dry scene: how many steps the next call of step() does: to the end of the record, or to `due` (s), the time of
+ * an output. The trajectories are the same for that, but for round-off where shapes or servos are. */
+void run_until(struct sim *s, double due);
+
 #endif

@@ -29,6 +29,7 @@ struct run {
     double end;           /* s */
     double dt;            /* s, grains' step */
     int substeps;         /* grain steps per fluid step (dry: per call of step) */
+    int record;           /* dry: most of them; fewer before an output */
     double settle_time;   /* s, longest settling before t = 0 */
     double settle_energy; /* kinetic energy per m g d of a grain at which a bed has settled */
     double overlap_max;   /* of the radius; more stops the run */
@@ -38,6 +39,7 @@ struct run {
     char *directory;                   /* of the outputs */
     double output_every;               /* s, fields and grains; INFINITY: first and last only */
     double series_every;               /* s */
+    bool series_asked;                 /* by the scene: samples are taken at just these times */
     enum save_bed save_bed;            /* when bed.nc is written */
     bool done;                         /* what the run was for has been found: it ends */
     const volatile sig_atomic_t *stop; /* not zero: a signal asks the run to end; or NULL */

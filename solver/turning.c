@@ -110,9 +110,12 @@ static void start(struct sim *s, int i, vec3 spin, vec3 torque)
         turn_round(s, i, torque);
         return;
     }
+    /* the momentum at hand, if it is that of the spin: a run that is cut in two keeps its bits */
     const struct mat3 m = quat_matrix(g->orientation[i]);
-    const vec3 l = rotation_momentum(&m, spin, g->inertia[i]);
-    g->momentum[i] = v3_axpy(l, 0.5 * s->run.dt, torque);
+    const vec3 same = rotation_spin(&m, g->momentum[i], g->inertia[i]);
+    if (same.x != spin.x || same.y != spin.y || same.z != spin.z)
+        g->momentum[i] = rotation_momentum(&m, spin, g->inertia[i]);
+    g->momentum[i] = v3_axpy(g->momentum[i], 0.5 * s->run.dt, torque);
     drift(s, i, torque);
 }
 
@@ -123,7 +126,8 @@ static void turn(struct sim *s, int i, vec3 torque)
         turn_round(s, i, torque);
         return;
     }
-    g->momentum[i] = v3_axpy(g->momentum[i], s->run.dt, torque);
+    const double half = 0.5 * s->run.dt; /* twice, as `end` and `start` do */
+    g->momentum[i] = v3_axpy(v3_axpy(g->momentum[i], half, torque), half, torque);
     drift(s, i, torque);
 }
 

@@ -52,6 +52,19 @@ within "$(awk -v a="$(value "$tmp/single" rebound_4_error)" -v b="$(value "$tmp/
 verdict $? "and comes to the heights of double within 1e-4, and not to its bits: $(value "$tmp/single" rebound_4_error)"
 grep -q '^ledger = closes' "$tmp/single/summary.txt" && ! cmp -s "$tmp/single/run.nc" "$tmp/bounce/run.nc"
 verdict $? "its ledger closes"
+# Outputs come at the times asked, within a step of the grains, and leave the run as it was.
+last_position() { # DIR
+    ncdump -p 17,17 -v position "$tmp/$1/run.nc" | tail -n 2 | head -n 1
+}
+run often scenes/bounce.ini "output.every=13.7 ms" "run.end=310 ms"
+ncdump -v time "$tmp/often/run.nc" | sed -n '/^ time =/,$p' | tr -d ' ;}' | tr ',=' '\n\n' | grep '^[0-9]' |
+    awk -v dt="$(sed -n 's/^ *steps *\([^ ]*\) s for the grains.*/\1/p' "$tmp/log" | head -n 1)" -v every=0.0137 '
+        { d = $1 - (NR - 1) * every; if (NR < 24 && (d < -1e-9 || d > dt + 1e-9)) bad = 1 }
+        END { exit bad || NR != 24 || !(dt > 0) }'
+verdict $? "outputs within a step of their times"
+run seldom scenes/bounce.ini "run.end=310 ms"
+[ -n "$(last_position often)" ] && [ "$(last_position often)" = "$(last_position seldom)" ]
+verdict $? "and the same bits at the end as without them"
 run darcy scenes/darcy_column.ini
 verdict $? "darcy_column.ini runs"
 grep -q '^verdict = pass' "$tmp/darcy/summary.txt"
