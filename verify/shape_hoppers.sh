@@ -1,36 +1,39 @@
 #!/usr/bin/env bash
 # verify/shape_hoppers.sh [FILLINGS] - prisms and cone pairs run out of the flat-bottomed hopper of [LiLiuJi23,
-# figs 6 to 9], each from FILLINGS random fillings (2; FULL=1: 5): the fraction of grains left in it against time as
-# a band, when the flow stood still, what stayed; out/shape_hoppers/hoppers.png.
+# figs 6 to 9], 1,000 grains, each from FILLINGS random fillings (5): the fraction of grains left in it against time
+# as a band, when the flow stood still, what stayed; out/shape_hoppers/hoppers.png.
 # The paper: prisms (convex) form arches near 1.6 and 2.4 s that collapse; cone pairs (concave) a lasting one near 0.8 s.
-# As the scenes have them, 500 and 400 grains: two to five minutes of one core a filling. FULL=1: the paper's 1,000,
-# with edges of 0.3 mm at 30 MPa (0.1 mm and 1 GPa there), 15 to 30 minutes a filling.
+# As the scenes have them, with edges of 1 mm at 10 MPa: some five minutes of one core a filling, JOBS (all cores)
+# fillings at a time. FULL=1: edges of 0.3 mm at 30 MPa (0.1 mm and 1 GPa there), three times as long.
 # A filling that is there from an earlier call is taken as it is (its program's version is printed), so a call that was
 # interrupted goes on; rm -r out/shape_hoppers begins anew.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-fillings=${1:-$([ -n "${FULL:-}" ] && echo 5 || echo 2)}
-out=out/shape_hoppers
-gate=0.6 # s
-[ -z "${FULL:-}" ] || gate=0.75
-still=0.15 # s without a grain: the flow stands still
+fillings=${1:-5}
+out=out/shape_hoppers${FULL:+_full}
+scenes=("prism_hopper prisms 2.5" "cone_pair_hopper pairs 1.25") # and the time after the gate, s
+gate=0.75                                                        # s
+still=0.15                                                       # s without a grain: the flow stands still
 mkdir -p "$out"
 
 series() { # VARIABLE FILE, one a line
     ncdump -v "$1" "$2" | sed -n "/^ $1 =/,/;/p" | sed 's/.*=//' | tr -d ' \n;' | tr ',' '\n'
 }
 
+# What decides a run: the scene without its comments, how long, which form.
+stamp() { # SCENE SECONDS
+    echo "# $(sed 's/[ \t]*;.*//; /^$/d' "scenes/$1.ini" | sha256sum | cut -c 1-12) $2 s ${FULL:+full}"
+}
+
 # One filling: OUT/NAME.K.left, lines "s after the gate, fraction left".
 filling() { # SCENE SPECIES SECONDS K
-    local scene=$1 species=$2 k=$4 dir=$out/$1.$4 file=$out/$1.$4.left full=() stamp
-    [ -z "${FULL:-}" ] || full=("grains $species.count=1000" "grains $species.to=140 50 795 mm"
-        "grains $species.dilation=0.3 mm" "material plastic.young=30 MPa" "wall gate.start=0.75 s" "wall gate.stop=0.85 s")
-    stamp="# $(sha256sum < "scenes/$scene.ini" | cut -c 1-12) $3 s ${FULL:+full}"
-    [ -e "$file" ] && [ "$(head -n 1 "$file")" = "$stamp" ] && return
+    local scene=$1 species=$2 k=$4 dir=$out/$1.$4 file=$out/$1.$4.left full=()
+    [ -z "${FULL:-}" ] || full=("grains $species.dilation=0.3 mm" "material plastic.young=30 MPa")
+    [ -e "$file" ] && [ "$(head -n 1 "$file")" = "$(stamp "$scene" "$3")" ] && return
     ./run.sh "scenes/$scene.ini" "run.seed=$k" "run.end=$(awk -v g=$gate -v s="$3" 'BEGIN { print g + s }') s" \
-        "${full[@]}" -o "$dir" > "$dir.log" 2>&1 || { tail -n 3 "$dir.log"; exit 1; }
+        "${full[@]}" -o "$dir" -j 1 > "$dir.log" 2>&1 || { tail -n 3 "$dir.log"; return 1; }
     {
-        echo "$stamp"
+        stamp "$scene" "$3"
         echo "# $(grep -m 1 -o '^silt [^,]*' "$dir.log")"
         paste <(series sample_time "$dir/run.nc") <(series slot_count "$dir/run.nc") |
             awk -v g=$gate -v n="$(sed -n 's/^.*_made = \([0-9]*\)$/\1/p' "$dir/summary.txt")" '
@@ -74,12 +77,20 @@ panel() { # SCENE TITLE
     echo ", '$out/$1.band' using 1:3 with lines lw 2 lc rgb '#1f4e8c' title 'mean'"
 }
 
-if [ -n "${FULL:-}" ]; then echo "the paper's 1,000 grains"; else echo "short form: the scenes' 500 and 400 grains"; fi
-for of in "prism_hopper prisms ${AFTER:-2.5}" "cone_pair_hopper pairs ${AFTER:-1.5}"; do
-    read -r scene species seconds <<< "$of"
-    for k in $(seq "$fillings"); do
-        filling "$scene" "$species" "$seconds" "$k"
+for of in "${scenes[@]}"; do
+    ./run.sh build "scenes/${of%% *}.ini" > /dev/null
+done
+for k in $(seq "$fillings"); do
+    for of in "${scenes[@]}"; do
+        read -r scene species seconds <<< "$of"
+        while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do wait -n || exit 1; done
+        filling "$scene" "$species" "$seconds" "$k" &
     done
+done
+while [ "$(jobs -rp | wc -l)" -gt 0 ]; do wait -n || exit 1; done
+echo "1,000 grains, edges of $([ -n "${FULL:-}" ] && echo "0.3 mm, 30 MPa" || echo "1 mm, 10 MPa"); the paper: 0.1 mm, 1 GPa"
+for of in "${scenes[@]}"; do
+    read -r scene species seconds <<< "$of"
     files=()
     for k in $(seq "$fillings"); do
         files+=("$out/$scene.$k.left")

@@ -189,7 +189,9 @@ static void check_scene(struct scene *scene, const struct fluid_work *w)
         scene_given(scene, "coupling", NULL, "ways"))
         scene_error(scene, "coupling", NULL, "ways",
                     "a prescribed flow does not feel the grains: one, or leave it out");
-    if (w->kind != VORTEX && w->kind != FROM_FILE && v3_norm(w->velocity) == 0.0)
+    /* at rest, if that is said */
+    if (w->kind != VORTEX && w->kind != FROM_FILE && v3_norm(w->velocity) == 0.0 &&
+        !scene_given(scene, "fluid", NULL, "velocity"))
         scene_error(scene, "fluid", NULL, "velocity",
                     "the flow needs its velocity, or an inflow side and that of [flow]");
     if (w->kind == VORTEX && v3_norm(w->spin) == 0.0)
