@@ -157,14 +157,14 @@ static void cut_slabs(struct bench *b, struct pack *packs)
     const struct sim *const s = b->s;
     const int rows = s->neighbours.rows;
     int axis = 0;
-    double largest = 0.0;
+    double largest = 0.0, inner = 0.0;
     for (int a = 1; a < 3; a++)
         axis = s->domain.size[a] > s->domain.size[axis] && s->domain.periodic[a] ? a : axis;
-    for (int i = 0; i < s->grains.n; i++)
+    for (int i = 0; i < s->grains.n; i++) {
         largest = fmax(largest, 2.0 * s->grains.radius[i]);
-    b->slabs =
-        (int)(s->domain.size[axis] / (largest + s->neighbours.inner + s->neighbours.reach)) /
-        2 * 2;
+        inner = fmax(inner, 2.0 * s->neighbours.thin * (double)s->neighbours.skin[i]);
+    }
+    b->slabs = (int)(s->domain.size[axis] / (largest + inner + s->neighbours.reach)) / 2 * 2;
     if (b->slabs < 2 || b->slabs > s->neighbours.runs)
         b->slabs = s->neighbours.runs < 2 ? 1 : s->neighbours.runs / 2 * 2;
     int *const count = xalloc((size_t)b->slabs, sizeof *count);

@@ -152,7 +152,7 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
     struct slots *const l = &nb->pairs;
     const struct frame *const f = &s->frame;
     const struct body *const bodies = s->bodies;
-    const real margin = (real)(nb->reach + nb->inner);
+    const real reach = (real)nb->reach, thin = (real)nb->thin;
     int *const active = &l->active[l->begin[first]];
     int n = 0;
     enum { PART = 512 };
@@ -161,14 +161,15 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
         const int count = l->begin[last] - from < PART ? l->begin[last] - from : PART;
 #pragma omp simd
         for (int k = 0; k < count; k++) {
-            const struct body *const i = &bodies[l->owner[from + k]];
-            const struct body *const j = &bodies[l->other[from + k]];
+            const int a = l->owner[from + k], b = l->other[from + k];
+            const struct body *const i = &bodies[a], *const j = &bodies[b];
             real x = body_along(i, j, 0) * f->scale[0];
             real y = body_along(i, j, 1) * f->scale[1];
             real z = body_along(i, j, 2) * f->scale[2];
             x -= f->image[0] * rint(x * f->inv_image[0]);
             y -= f->image[1] * rint(y * f->inv_image[1]);
             z -= f->image[2] * rint(z * f->inv_image[2]);
+            const real margin = reach + thin * ((real)nb->skin[a] + (real)nb->skin[b]);
             const real cut = i->spin[3] + j->spin[3] + margin;
             gap[k] = x * x + y * y + z * z - cut * cut;
         }

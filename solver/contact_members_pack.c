@@ -156,7 +156,7 @@ void members_take(struct sim *s, int run)
     const struct grains *const g = &s->grains;
     const int *const active = &l->active[l->begin[run * RUN]];
     struct filling f = open_filling(s, run);
-    struct shape_pair pair = {.reach = nb->reach + nb->inner};
+    struct shape_pair pair = {0};
     int before = -1;
     f.found_room = POINTS_MOST;
     f.found = xalloc(POINTS_MOST, sizeof *f.found);
@@ -166,6 +166,7 @@ void members_take(struct sim *s, int run)
             pair.i = points_pose(s, i);
         before = i;
         pair.j = points_pose(s, j);
+        pair.reach = neighbours_inner(nb, i, j);
         pair.j.centre =
             domain_minimum_image(&s->domain, v3_sub(g->pos[j], g->pos[i])); /* from x_i */
         const int n = find(&f, &pair);

@@ -47,7 +47,7 @@ static void find(const struct sim *s, const struct wall_entry *slot, int n, stru
     const struct slots *const l = &s->neighbours.walls;
     const int i = l->owner[slot->slot];
     const struct shape_pose pose = points_pose(s, i);
-    const double margin = s->neighbours.reach + s->neighbours.inner;
+    const double margin = neighbours_inner_wall(&s->neighbours, i);
     int balls = 0;
     const struct shape_ball *const ball = shape.balls(pose.species, &balls);
     const int first = s->contacts->members.first[pose.species];

@@ -8,7 +8,6 @@ void walls_choose(struct sim *s, int run, int first, int last)
 {
     struct neighbours *const nb = &s->neighbours;
     struct slots *const l = &nb->walls;
-    const double margin = nb->reach + nb->inner;
     int *const active = &l->active[l->begin[first]];
     int n = 0;
     for (int slot = l->begin[first]; slot < l->begin[last]; slot++) {
@@ -16,7 +15,7 @@ void walls_choose(struct sim *s, int run, int first, int last)
         struct wall_seen seen;
         wall_look(s, l->other[slot], &s->grains.pos[i], &seen);
         const vec3 d = seen.view.away;
-        const double cut = s->grains.radius[i] + margin;
+        const double cut = s->grains.radius[i] + neighbours_inner_wall(nb, i);
         active[n] = slot;
         n += l->live[slot] || v3_dot(d, d) < cut * cut;
     }

@@ -87,7 +87,7 @@ static inline struct motion_state state_of(const struct grains *g, int i)
         .vel_spin = {v.x, v.y, v.z, g->inv_mass[i], w.x, w.y, w.z, g->radius[i]}};
 }
 
-/* Half a kick and the drift; writes body and position. Returns the square of the speed. */
+/* Half a kick and the drift; writes body and position. Returns the grain's pace. */
 static inline double kick_drift(struct sim *s, const struct kicks *k, int i,
                                 struct motion_state m, double8 rate)
 {
@@ -103,8 +103,7 @@ static inline double kick_drift(struct sim *s, const struct kicks *k, int i,
     }
     const double material = (double)s->bodies[i].full[3];
     body_write(&s->bodies[i], &s->frame, &m, (double4){full[0], full[1], full[2], material});
-    const double4 square = v * v;
-    return square[0] + square[1] + square[2];
+    return neighbours_pace(&s->neighbours, i, v);
 }
 
 /* Runs of grains, shared out like those of the contact loop, so that a thread moves what it has
@@ -114,11 +113,13 @@ static int run_end(const struct sim *s, int run)
     return (run + 1) * RUN < s->grains.n ? (run + 1) * RUN : s->grains.n;
 }
 
-/* m2/s2, the square of the largest speed that parts of a grain have by its spin. */
-static inline double tip_speed(const struct body *b)
+/* The pace of those parts of a grain that move fastest by its spin. */
+static inline double tip_pace(const struct sim *s, int i)
 {
+    const struct body *const b = &s->bodies[i];
     const double4 w = __builtin_convertvector(b->spin, double4);
-    return (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * (w[3] * w[3]);
+    return (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * (w[3] * w[3]) *
+           (double)s->neighbours.pace[i];
 }
 
 void motion_start(struct sim *s, int parity)
@@ -140,7 +141,7 @@ void motion_start(struct sim *s, int parity)
             fastest = square <= fastest ? fastest : square; /* not a number counts as fast */
             if (turns) {
                 turns->start(s, i, spin, t);
-                const double own = tip_speed(&s->bodies[i]);
+                const double own = tip_pace(s, i);
                 tip = own <= tip ? tip : own;
             }
         }
@@ -207,7 +208,7 @@ void motion_turn(struct sim *s, bool last, int parity)
             fastest = square <= fastest ? fastest : square;
             if (turns) {
                 turns->turn(s, i, torque_of(f));
-                const double own = tip_speed(&s->bodies[i]);
+                const double own = tip_pace(s, i);
                 tip = own <= tip ? tip : own;
             }
         }

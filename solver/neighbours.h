@@ -1,18 +1,21 @@
 /* neighbours.h - which bodies may touch: lists of pairs with a skin, from a cell grid.
  *
- * A slot of a list is a pair owned by one grain: of two grains the smaller one (of like ones
- * that with the smaller id), or the grain of a grain-wall pair. Slots of an owner are
- * consecutive: begin[i]..begin[i+1]-1. The memory of a contact lives in its slot and moves with
+ * A slot of a list is a pair owned by one grain: of two grains the smaller one (of like ones in
+ * single precision that with the smaller id), or the grain of a grain-wall pair. Slots of an owner
+ * are consecutive: begin[i]..begin[i+1]-1. The memory of a contact lives in its slot and moves with
  * it when the list is rebuilt; that of a slot without contact is zero.
  *
- * The list is rebuilt when the fastest grains of the steps since may have brought two bodies
- * nearer by the skin (the sum of the largest speeds times the step, so no position needs to be
- * kept). Of the slots, those within a much thinner skin are active: only these are looked at in
- * a step, and they are chosen anew when that skin is used up. */
+ * Each grain has a skin of its own: so far it may move until the list is made anew, beside the
+ * drift that all share. A pair is listed where the gap is less than both skins; walls drift the
+ * other way, and have a skin too. At each step the list grows older by the largest part of its skin
+ * that any of them moves, so no position needs to be kept: a fast grain has a thick skin, and makes
+ * nobody else's search wider or the list shorter-lived. Of the slots, those within a thin part of
+ * the skins are active: only these are looked at in a step, and they are chosen anew when that part
+ * is used up. */
 #ifndef NEIGHBOURS_H
 #define NEIGHBOURS_H
 
-#include "domain.h"
+#include "body.h"
 #include "real.h"
 
 struct sim;
@@ -33,26 +36,27 @@ struct slots {
 };
 
 struct neighbours {
-    double skin;  /* m */
-    double inner; /* m, the thin skin */
-    double reach; /* m, gap up to which laws act */
-    int rows;     /* reals of memory per slot */
-    int runs;     /* of the grains at hand */
+    double reach;       /* m, gap up to which laws act */
+    float *skin;        /* m, per grain; 0 of frozen ones, as their pace */
+    float *pace;        /* 1/m2, per grain, 1/skin^2 */
+    double wall_skin;   /* m */
+    double thin;        /* the thin part of the skins */
+    double4 drift;      /* m/s, that skins do not count */
+    double drift_speed; /* m/s */
+    int rows;           /* reals of memory per slot */
+    int runs;           /* of the grains at hand */
     struct slots pairs, walls;
-    struct slots spare[2]; /* the lists before, room for the next */
     int *to;         /* per pair slot: the other grain as its run counts it: own ones from 0,
                            then its halo from RUN on */
     int *halo_begin; /* runs + 1: a run's halo are the grains of other runs in its slots */
     int *begin_in,
         *in;      /* n + 1, halos: entries (neighbours_entry) of a grain in others' halos */
     int listed;   /* grains in the lists; newcomers stand behind them */
-    double moved; /* m, that a grain may have moved since the list was made */
-    double way;   /* m, the largest of the last step */
-    double
-        tip; /* m, the largest of the last step of a part of a grain by its spin, where parts matter */
-    double moved_inner; /* m, since the active slots were chosen */
-    double fastest[2];  /* m2/s2, squares of largest speeds, of the step at hand and the next */
-    double tips[2];     /* the same by spins, see tip */
+    double moved; /* the part of its skin that a grain may have moved since the list was made */
+    double moved_inner; /* since the active slots were chosen */
+    double fastest
+        [2]; /* 1/s2, squares of the largest speeds over skins, of the step at hand and the next */
+    double tips[2];       /* the same of parts of a grain by its spin, where they matter */
     long builds, choices; /* lists made, active slots chosen */
     long touching;        /* contacts, when last counted */
 };
@@ -62,14 +66,34 @@ void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 
-/* A thread reports the square of the largest speed among its grains, and of those of their parts by
- * spins, for a step whose parity is that of `step`. */
+/* Square of speed over skin: how fast grain i uses up its skin, 1/s2. v: m/s, and anything behind. */
+static inline double neighbours_pace(const struct neighbours *nb, int i, double4 v)
+{
+    const double4 beside = v - nb->drift, square = beside * beside;
+    return (square[0] + square[1] + square[2]) * (double)nb->pace[i];
+}
+
+/* m, gap up to which a pair is active. */
+static inline double neighbours_inner(const struct neighbours *nb, int i, int j)
+{
+    return nb->reach + nb->thin * ((double)nb->skin[i] + (double)nb->skin[j]);
+}
+
+static inline double neighbours_inner_wall(const struct neighbours *nb, int i)
+{
+    return nb->reach + nb->thin * ((double)nb->skin[i] + nb->wall_skin);
+}
+
+/* A thread reports the largest pace among its grains, and that of their parts by spins, for a step
+ * whose parity is that of `step`. */
 void neighbours_speed(struct sim *s, int step, double square, double tip);
+/* Likewise for walls, m/s. */
+void neighbours_wall_speed(struct sim *s, int step, double speed);
 
 /* How old the lists are, as every thread of a team counts it for itself. */
 struct ageing {
-    double way, tip, moved, moved_inner; /* m */
-    bool choose; /* the active slots are to be chosen anew at this step */
+    double moved, moved_inner; /* parts of the skins */
+    bool choose;               /* the active slots are to be chosen anew at this step */
     long choices;
 };
 

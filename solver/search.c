@@ -1,55 +1,67 @@
-/* search.c - cell grids per class of sizes, sorting, pairs.
+/* search.c - grids per class of grains, pairs.
  *
- * Everything that follows from the state alone is the same on any number of threads: grains of
- * a cell are put in the order that they had, whoever placed them. */
+ * Everything here follows from the state alone, and is the same on any number of threads: grains of
+ * a cell are put in the order of their places, whoever put them there. */
 #include "search.h"
 
-#include <string.h>
 #include "sim.h"
 
-static int halvings(const struct search *c, double radius)
+#define SLOW 0.1 /* skin over radius: to one class, to the next */
+#define FAST 0.3
+
+static int halvings(const struct search *c, float radius)
 {
     int k = 0;
-    for (double r = c->largest; radius <= 0.5 * r && k < 63; k++)
+    for (double r = c->largest; (double)radius <= 0.5 * r && k < SEARCH_SIZES - 1; k++)
         r *= 0.5;
     return k;
 }
 
-static void open_classes(struct search *c, const struct sim *s)
+static int kind_of(const struct search *c, float radius, float skin)
+{
+    const int size = halvings(c, radius);
+    const double of = (double)skin / ldexp(c->largest, -size);
+    return SEARCH_SPEEDS * size + (of > SLOW) + (of > FAST);
+}
+
+/* With what single precision leaves open. */
+static float reach_of(const struct sim *s, int i, double skin, double gap)
+{
+    const vec3 x = s->grains.pos[i];
+    const double *const size = s->domain.size;
+    const double far = fabs(x.x) + fabs(x.y) + fabs(x.z) + size[0] + size[1] + size[2];
+    return (float)((s->grains.radius[i] + skin + 0.5 * gap) * (1.0 + 1e-6) + 2e-7 * far);
+}
+
+static void open_classes(struct search *c, const struct sim *s, const float *skin, double gap)
 {
     const struct grains *const g = &s->grains;
-    double largest = 0.0, widest[SEARCH_CLASSES] = {0.0};
+    double widest[SEARCH_CLASSES] = {0.0};
     int count[SEARCH_CLASSES] = {0};
     for (int i = 0; i < g->n; i++)
-        largest = fmax(largest, g->radius[i]);
-    c->largest = largest;
+        c->largest = fmax(c->largest, (double)(float)g->radius[i]);
     for (int i = 0; i < g->n; i++) {
-        if (g->id[i] < 0)
-            continue;
-        int k = halvings(c, g->radius[i]);
-        k = k < SEARCH_CLASSES ? k : SEARCH_CLASSES - 1;
+        const int k = kind_of(c, (float)g->radius[i], skin[i]);
         count[k]++;
-        widest[k] = fmax(widest[k], g->radius[i]);
+        widest[k] = fmax(widest[k], (double)reach_of(s, i, (double)skin[i], gap));
     }
     for (int k = 0; k < SEARCH_CLASSES; k++) {
-        c->class_of[k] = c->classes;
         if (count[k] == 0)
             continue;
-        c->class[c->classes].widest = widest[k];
-        c->class[c->classes++].n_grains = count[k];
+        c->class_of[k] = c->classes;
+        c->class[c->classes++] = (struct search_class){
+            .size = k / SEARCH_SPEEDS, .widest = widest[k], .n_grains = count[k]};
     }
-    for (int k = SEARCH_CLASSES; k < 64; k++)
-        c->class_of[k] = c->classes - 1;
 }
 
 /* Cells no narrower than the widest pair, and not many more of them than grains. */
-static void open_cells(struct search *c, const struct sim *s, double margin)
+static void open_cells(struct search *c, const struct sim *s)
 {
     const double *const size = s->domain.size;
     for (int k = 0; k < c->classes; k++) {
         struct search_class *const l = &c->class[k];
         const double room = size[0] * size[1] * size[2] / (4.0 * l->n_grains + 64.0);
-        const double edge = fmax(2.0 * l->widest + margin, cbrt(room));
+        const double edge = fmax(2.0 * l->widest, cbrt(room));
         for (int a = 0; a < 3; a++) {
             l->n[a] = (int)fmin(fmax(1.0, floor(size[a] / edge)), 1000.0);
             l->edge[a] = size[a] / l->n[a];
@@ -59,40 +71,19 @@ static void open_cells(struct search *c, const struct sim *s, double margin)
     }
 }
 
-static int index_along(const struct search_class *l, const struct domain *d, double x, int a)
+/* The cell of a place along an axis; what lies outside is in the last one. */
+static int step_to(const struct search_class *l, double x, int a)
 {
-    const double at = x / l->edge[a];
-    if (!(at >= 0.0))
-        return d->periodic[a] ? l->n[a] - 1 : 0;
-    if (at >= l->n[a])
-        return d->periodic[a] ? 0 : l->n[a] - 1;
-    return (int)at;
+    return (int)fmin(fmax(0.0, floor(x / l->edge[a])), l->n[a] - 1.0);
 }
 
-/* Cells are counted block by block, so that grains near in memory are near in space. */
-enum { SIDE = 4 };
-
-static int least(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static int cell_index(const struct search_class *l, int i, int j, int k)
-{
-    const int bi = i / SIDE * SIDE, bj = j / SIDE * SIDE, bk = k / SIDE * SIDE;
-    const int wide = least(SIDE, l->n[0] - bi), deep = least(SIDE, l->n[1] - bj);
-    const int high = least(SIDE, l->n[2] - bk);
-    return l->first + l->n[0] * l->n[1] * bk + l->n[0] * bj * high + bi * deep * high +
-           (i - bi) + wide * ((j - bj) + deep * (k - bk));
-}
-
-static int home_of(const struct search *c, const struct sim *s, int i)
+static int home_of(const struct search *c, const struct sim *s, const float *skin, int i)
 {
     const vec3 x = s->grains.pos[i];
     const struct search_class *const l =
-        &c->class[c->class_of[halvings(c, s->grains.radius[i])]];
-    return cell_index(l, index_along(l, &s->domain, x.x, 0), index_along(l, &s->domain, x.y, 1),
-                      index_along(l, &s->domain, x.z, 2));
+        &c->class[c->class_of[kind_of(c, (float)s->grains.radius[i], skin[i])]];
+    return l->first + step_to(l, x.x, 0) +
+           l->n[0] * (step_to(l, x.y, 1) + l->n[1] * step_to(l, x.z, 2));
 }
 
 static void sort_ints(int *x, int n)
@@ -106,142 +97,194 @@ static void sort_ints(int *x, int n)
     }
 }
 
-/* order[new] = old, by cell. */
-static int *order_by_cell(struct search *c, struct sim *s)
+static void fill_cells(struct search *c, const struct sim *s, const float *skin)
 {
-    struct grains *const g = &s->grains;
-    int *const order = xalloc((size_t)g->n + 1, sizeof *order);
-    int *const home = xalloc((size_t)g->n + 1, sizeof *home);
+    const int n = s->grains.n;
+    int *const home = xalloc((size_t)n + 1, sizeof *home);
     int *const next = xalloc((size_t)c->cells + 1, sizeof *next);
     c->begin = xalloc((size_t)c->cells + 1, sizeof *c->begin);
+    c->grain = xalloc((size_t)n + SEARCH_LANES, sizeof *c->grain);
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < g->n; i++) {
-        home[i] = -1;
-        if (g->id[i] < 0)
-            continue;
-        g->pos[i] = domain_wrap(&s->domain, g->pos[i]);
-        home[i] = home_of(c, s, i);
+    for (int i = 0; i < n; i++) {
+        home[i] = home_of(c, s, skin, i);
 #pragma omp atomic
         c->begin[home[i] + 1]++;
     }
-    for (int k = 0; k < c->cells; k++)
+    for (int k = 0; k < c->cells; k++) {
+        next[k] = c->begin[k];
         c->begin[k + 1] += c->begin[k];
-    memcpy(next, c->begin, (size_t)c->cells * sizeof *next);
+    }
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < g->n; i++) {
+    for (int i = 0; i < n; i++) {
         int place;
-        if (home[i] < 0)
-            continue;
 #pragma omp atomic capture
         place = next[home[i]]++;
-        order[place] = i;
+        c->grain[place] = i;
     }
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < c->cells; k++)
-        sort_ints(order + c->begin[k], c->begin[k + 1] - c->begin[k]);
+        sort_ints(c->grain + c->begin[k], c->begin[k + 1] - c->begin[k]);
     xfree(next);
     xfree(home);
-    return order;
 }
 
-int *search_sort(struct search *c, struct sim *s, double margin)
+/* What a search reads of the grains, side by side. */
+static void fill_lanes(struct search *c, const struct sim *s, const float *skin, double gap)
 {
-    struct grains *const g = &s->grains;
-    *c = (struct search){0};
-    open_classes(c, s);
-    open_cells(c, s, margin);
-    int *const order = order_by_cell(c, s);
-    g->n = c->begin[c->cells];
-    for (int f = 0; f < s->fields.n; f++) {
-        const struct field *const field = &s->fields.field[f];
-        if (field->place != PLACE_GRAIN)
-            continue;
-        const size_t size = kind_size(field->kind);
-        char *const old = *field->data, *const sorted = xalloc((size_t)g->capacity, size);
+    const struct grains *const g = &s->grains;
+    float **const all[] = {&c->x, &c->y, &c->z, &c->reach, &c->radius};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        *all[k] = xalloc((size_t)g->n + SEARCH_LANES, sizeof **all[k]);
+    c->id = xalloc((size_t)g->n + SEARCH_LANES, sizeof *c->id);
 #pragma omp parallel for schedule(static)
-        for (int i = 0; i < g->n; i++)
-            memcpy(sorted + (size_t)i * size, old + (size_t)order[i] * size, size);
-        *field->data = sorted;
-        xfree(old);
+    for (int m = 0; m < g->n; m++) {
+        const int i = c->grain[m];
+        c->x[m] = (float)g->pos[i].x;
+        c->y[m] = (float)g->pos[i].y;
+        c->z[m] = (float)g->pos[i].z;
+        c->reach[m] = reach_of(s, i, (double)skin[i], gap);
+        c->radius[m] = (float)g->radius[i];
+        c->id[m] = g->id[i];
     }
-    return order;
+}
+
+void search_open(struct search *c, const struct sim *s, const float *skin, double gap)
+{
+    *c = (struct search){.skin = skin, .gap = gap};
+    open_classes(c, s, skin, gap);
+    open_cells(c, s);
+    fill_cells(c, s, skin);
+    fill_lanes(c, s, skin, gap);
 }
 
 void search_free(struct search *c)
 {
-    xfree(c->begin);
+    void *const all[] = {c->begin, c->x, c->y, c->z, c->reach, c->radius, c->id, c->grain};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        xfree(all[k]);
 }
 
-static int step_of(double x, double edge)
+/* Cells in a row along an axis: from lo[k] to hi[k], in one piece or two. */
+struct spans {
+    int n, lo[2], hi[2];
+};
+
+static struct spans spans_around(const struct search_class *l, const struct domain *d, double x,
+                                 double reach, int a)
 {
-    return (int)fmin(fmax(floor(x / edge), -2.0), 1001.0);
+    const int n = l->n[a];
+    const int lo = (int)fmin(fmax(floor((x - reach) / l->edge[a]), -1e6), 1e6);
+    const int hi = (int)fmin(fmax(floor((x + reach) / l->edge[a]), -1e6), 1e6);
+    if (!d->periodic[a])
+        return (struct spans){1,
+                              {lo < 0   ? 0
+                               : lo < n ? lo
+                                        : n - 1},
+                              {hi < 0   ? 0
+                               : hi < n ? hi
+                                        : n - 1}};
+    if (hi - lo + 1 >= n)
+        return (struct spans){1, {0}, {n - 1}};
+    if (lo < 0)
+        return (struct spans){2, {lo + n, 0}, {n - 1, hi}};
+    if (hi >= n)
+        return (struct spans){2, {lo, 0}, {n - 1, hi - n}};
+    return (struct spans){1, {lo}, {hi}};
 }
 
-/* Cells along an axis that hold what is nearer than `reach` (an edge at most) to x, each once;
- * returns how many: two, mostly, of a class whose grains are much larger. */
-static int around(const struct search_class *l, const struct domain *d, double x, double reach,
-                  int a, int out[3])
-{
-    const int home = index_along(l, d, x, a), last = l->n[a] - 1;
-    const double wide = reach * (1.0 + 1e-9); /* above round-off */
-    const int low = step_of(x - wide, l->edge[a]), high = step_of(x + wide, l->edge[a]);
-    const bool wrapped = d->periodic[a] && step_of(x, l->edge[a]) != home; /* x is the size */
-    int n = 0;
-    for (int k = home - 1; k <= home + 1; k++) {
-        const int i = d->periodic[a] ? (k + l->n[a]) % l->n[a] : k;
-        bool seen = k != home && !wrapped && (k < low || k > high);
-        seen = seen || i < 0 || i > last;
-        for (int m = 0; m < n; m++)
-            seen = seen || out[m] == i;
-        if (!seen)
-            out[n++] = i;
-    }
-    return n;
-}
+/* Who looks. */
+struct seeker {
+    float x, y, z, reach, radius; /* m */
+    float image[3], inv_image[3]; /* of the nearest image */
+    int id;
+};
 
-/* The grains from..to-1 that i owns a pair with. */
-static int scan(const struct sim *s, double margin, int i, int from, int to, int *out, int n)
+static struct seeker seeker_of(const struct search *c, const struct sim *s, int i)
 {
     const struct grains *const g = &s->grains;
-    const vec3 x = g->pos[i];
-    const double r = g->radius[i];
-    const bool frozen = g->inv_mass[i] == 0.0;
-    for (int m = from; m < to; m++) {
-        const vec3 d = domain_minimum_image(&s->domain, v3_sub(x, g->pos[m]));
-        const double cut = r + g->radius[m] + margin;
-        const bool near = v3_dot(d, d) < cut * cut;
-        const bool mine = g->radius[m] > r || (g->radius[m] == r && g->id[m] > g->id[i]);
-        const bool moves = !(frozen && g->inv_mass[m] == 0.0);
-        out[n] = m;
-        n += near & mine & moves;
+    struct seeker k = {.x = (float)g->pos[i].x,
+                       .y = (float)g->pos[i].y,
+                       .z = (float)g->pos[i].z,
+                       .reach = reach_of(s, i, (double)c->skin[i], c->gap),
+                       .radius = (float)g->radius[i],
+                       .id = g->id[i]};
+    for (int a = 0; a < 3; a++) {
+        k.image[a] = (float)s->domain.image[a];
+        k.inv_image[a] = (float)s->domain.inv_image[a];
+    }
+    return k;
+}
+
+/* Those of the grains from..to-1 of the grids that the seeker owns a pair with. */
+static int scan(const struct search *c, const struct seeker *k, int from, int to, int *out,
+                int n)
+{
+    const float x = k->x, y = k->y, z = k->z, reach = k->reach, radius = k->radius;
+    const float lx = k->image[0], ly = k->image[1], lz = k->image[2];
+    const float ix = k->inv_image[0], iy = k->inv_image[1], iz = k->inv_image[2];
+    const int id = k->id;
+    for (int m = from; m < to; m += SEARCH_LANES) {
+        const float *const mx = c->x + m, *const my = c->y + m, *const mz = c->z + m;
+        const float *const mreach = c->reach + m, *const mradius = c->radius + m;
+        const int *const mid = c->id + m;
+        int near[SEARCH_LANES];
+#pragma omp simd
+        for (int q = 0; q < SEARCH_LANES; q++) { /* beyond `to` too: a whole vector */
+            float dx = x - mx[q], dy = y - my[q], dz = z - mz[q];
+            dx -= lx * rintf(dx * ix);
+            dy -= ly * rintf(dy * iy);
+            dz -= lz * rintf(dz * iz);
+            const float cut = reach + mreach[q];
+            near[q] = (dx * dx + dy * dy + dz * dz < cut * cut) &
+                      ((mradius[q] > radius) | ((mradius[q] == radius) & (mid[q] > id)));
+        }
+        const int count = to - m < SEARCH_LANES ? to - m : SEARCH_LANES;
+        for (int q = 0; q < count; q++) {
+            out[n] = c->grain[m + q];
+            n += near[q];
+        }
     }
     return n;
 }
 
-int search_pairs(const struct search *c, const struct sim *s, double margin, int i, int **out,
-                 int *room, int n)
+/* Of the neighbours of a frozen grain those that move. */
+static int keep_moving(const struct grains *g, int *out, int from, int to)
 {
+    int n = from;
+    for (int k = from; k < to; k++)
+        if (g->inv_mass[out[k]] != 0.0)
+            out[n++] = out[k];
+    return n;
+}
+
+int search_pairs(const struct search *c, const struct sim *s, int i, int **out, int *room,
+                 int n)
+{
+    const struct seeker k = seeker_of(c, s, i);
     const vec3 x = s->grains.pos[i];
     const double at[3] = {x.x, x.y, x.z};
-    const int own = c->class_of[halvings(c, s->grains.radius[i])];
-    for (int level = 0; level <= own; level++) {
+    const int own = halvings(c, k.radius), before = n;
+    for (int level = 0; level < c->classes && c->class[level].size <= own; level++) {
         const struct search_class *const l = &c->class[level];
-        int near[3][3], count[3];
+        struct spans span[3];
         for (int a = 0; a < 3; a++)
-            count[a] = around(l, &s->domain, at[a], s->grains.radius[i] + l->widest + margin, a,
-                              near[a]);
-        for (int k = 0; k < count[2]; k++)
-            for (int j = 0; j < count[1]; j++)
-                for (int h = 0; h < count[0]; h++) {
-                    const int home = cell_index(l, near[0][h], near[1][j], near[2][k]);
-                    const int from = c->begin[home], to = c->begin[home + 1];
-                    if (n + to - from + 1 > *room) {
-                        const int more = 2 * (n + to - from) + 1024;
-                        *out = xrealloc(*out, (size_t)*room, (size_t)more, sizeof **out);
-                        *room = more;
-                    }
-                    n = scan(s, margin, i, from, to, *out, n);
-                }
+            span[a] = spans_around(l, &s->domain, at[a], (double)k.reach + l->widest, a);
+        for (int p = 0; p < span[2].n; p++)
+            for (int kz = span[2].lo[p]; kz <= span[2].hi[p]; kz++)
+                for (int q = 0; q < span[1].n; q++)
+                    for (int ky = span[1].lo[q]; ky <= span[1].hi[q]; ky++)
+                        for (int r = 0; r < span[0].n; r++) {
+                            const int row = l->first + l->n[0] * (ky + l->n[1] * kz);
+                            const int from = c->begin[row + span[0].lo[r]];
+                            const int to = c->begin[row + span[0].hi[r] + 1];
+                            if (n + to - from + 1 > *room) {
+                                const int more = 2 * (n + to - from) + 1024;
+                                *out =
+                                    xrealloc(*out, (size_t)*room, (size_t)more, sizeof **out);
+                                *room = more;
+                            }
+                            n = scan(c, &k, from, to, *out, n);
+                        }
     }
-    return n;
+    return s->grains.inv_mass[i] == 0.0 ? keep_moving(&s->grains, *out, before, n) : n;
 }

@@ -200,7 +200,7 @@ void walls_drift(struct sim *s, int parity)
         wall_pose_at(w, t, 0.5 * s->run.dt);
         all->speed = fmax(all->speed, fastest(w, t, s->run.dt));
     }
-    neighbours_speed(s, parity, all->speed * all->speed, 0.0);
+    neighbours_wall_speed(s, parity, all->speed);
 }
 
 static double8 add_runs(const struct sim *s, int k)

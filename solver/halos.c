@@ -1,0 +1,94 @@
+/* halos.c - halos of runs, in the order in which their slots name them. */
+#include "halos.h"
+
+#include <string.h>
+
+static void sort_slots(int *slot, int n)
+{
+    for (int a = 1; a < n; a++) {
+        const int v = slot[a];
+        int b = a;
+        for (; b > 0 && slot[b - 1] > v; b--)
+            slot[b] = slot[b - 1];
+        slot[b] = v;
+    }
+}
+
+/* Counts the grains of other runs that a run's slots name, in the order of the slots; writes the
+ * `to` of the slots and, from `halo` on, the grains. The marks of the thread tell what it has
+ * seen in this run. */
+static int count_halo(struct neighbours *nb, int run, int n, int (*mark)[2], int *halo)
+{
+    const struct slots *const l = &nb->pairs;
+    const int first = run * RUN, last = first + RUN < n ? first + RUN : n;
+    int count = 0;
+    for (int t = l->begin[first]; t < l->begin[last]; t++) {
+        const int j = l->other[t];
+        if (j >= first && j < last) {
+            nb->to[t] = j - first;
+            continue;
+        }
+        if (mark[j][0] != run + 1) {
+            mark[j][0] = run + 1;
+            mark[j][1] = count;
+            halo[count++] = j;
+        }
+        nb->to[t] = RUN + mark[j][1];
+    }
+    return count;
+}
+
+/* For each grain its entries in halos, in the order of the runs. */
+static void list_incoming(struct neighbours *nb, const int *halo, int n)
+{
+    const int entries = nb->halo_begin[nb->runs];
+    int *const next = xalloc((size_t)n + 1, sizeof *next);
+    xfree(nb->in);
+    nb->in = xalloc((size_t)entries + IN_AHEAD, sizeof *nb->in);
+    memset(nb->begin_in, 0, ((size_t)n + 1) * sizeof *nb->begin_in);
+#pragma omp parallel for schedule(static)
+    for (int e = 0; e < entries; e++)
+#pragma omp atomic
+        nb->begin_in[halo[e] + 1]++;
+    for (int i = 0; i < n; i++)
+        nb->begin_in[i + 1] += nb->begin_in[i];
+    memcpy(next, nb->begin_in, (size_t)n * sizeof *next);
+#pragma omp parallel for schedule(static)
+    for (int run = 0; run < nb->runs; run++)
+        for (int e = nb->halo_begin[run]; e < nb->halo_begin[run + 1]; e++) {
+            int place;
+#pragma omp atomic capture
+            place = next[halo[e]]++;
+            nb->in[place] = (int)neighbours_entry(nb, run, RUN + e - nb->halo_begin[run]);
+        }
+#pragma omp parallel for schedule(dynamic, 1024)
+    for (int i = 0; i < n; i++)
+        sort_slots(nb->in + nb->begin_in[i], nb->begin_in[i + 1] - nb->begin_in[i]);
+    xfree(next);
+}
+
+void halos_make(struct neighbours *nb, int n)
+{
+    const struct slots *const l = &nb->pairs;
+    int *const halo = xalloc(l->n + 1, sizeof *halo); /* of a run from its first slot on */
+    xfree(nb->to);
+    xfree(nb->halo_begin);
+    nb->to = xalloc(l->n + 1, sizeof *nb->to);
+    nb->halo_begin = xalloc((size_t)nb->runs + 1, sizeof *nb->halo_begin);
+#pragma omp parallel
+    {
+        int(*const mark)[2] = xalloc((size_t)n + 1, sizeof *mark);
+#pragma omp for schedule(static)
+        for (int run = 0; run < nb->runs; run++)
+            nb->halo_begin[run + 1] = count_halo(nb, run, n, mark, halo + l->begin[run * RUN]);
+        xfree(mark);
+    }
+    for (int run = 0; run < nb->runs; run++) {
+        const int count = nb->halo_begin[run + 1];
+        nb->halo_begin[run + 1] = nb->halo_begin[run] + count;
+        memmove(halo + nb->halo_begin[run], halo + l->begin[run * RUN],
+                (size_t)count * sizeof *halo);
+    }
+    list_incoming(nb, halo, n);
+    xfree(halo);
+}
