@@ -393,15 +393,26 @@ static double approached(const struct body *i, const struct body *j, double dt)
     return slow ? way + 2.0 * (turn_i * a[3] + turn_j * b[3]) : (double)INFINITY;
 }
 
-/* Takes the last step off what parts a pair; is something left? What is left is the second number
- * of the slot's head, 0 for a slot that is not live. */
-static bool still_apart(const struct sim *s, const struct slots *l, int slot, real *left)
+/* Takes the last step off what parts a pair; is something left? */
+static bool still_apart(const struct sim *s, const struct slots *l, int slot, real *head)
 {
-    if (!(*left > (real)0.0))
+    const bool apart = head[HEAD_APART] > (real)0.0;
+    if (!apart && head[HEAD_ASKED] == (real)0.0)
         return false;
-    *left -=
+    const real step =
         (real)approached(&s->bodies[l->owner[slot]], &s->bodies[l->other[slot]], s->run.dt);
-    return *left > (real)0.0;
+    head[HEAD_NEARER] += step;
+    head[HEAD_APART] -= apart ? step : (real)0.0;
+    return head[HEAD_APART] > (real)0.0;
+}
+
+/* What the shape may take as known of the time since it was last asked. */
+static double nearer(real *head)
+{
+    const double by = head[HEAD_ASKED] > (real)0.0 ? (double)head[HEAD_NEARER] : 0.0;
+    head[HEAD_NEARER] = (real)0.0;
+    head[HEAD_ASKED] = (real)1.0;
+    return by;
 }
 
 static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
@@ -429,8 +440,8 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             continue;
         }
         pair.memory = &l->memory[(size_t)slot[k] * s->neighbours.rows];
-        real *const left = &pair.memory[cut.head + 1];
-        if (still_apart(s, l, slot[k], left))
+        real *const head = &pair.memory[cut.head];
+        if (still_apart(s, l, slot[k], head))
             continue;
         if (i != before)
             pair.i = points_pose(s, i);
@@ -439,12 +450,13 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
         pair.j.centre = v3_scale(-1.0, d);
         double far = 0.0;
         pair.apart = &far;
+        pair.approached = nearer(head);
         const int n = find(s, &cut, &pair, p, to->report);
         if (n > 0 || l->live[slot[k]] || shape.memory > 0)
             enter_points(s, b, &cut, slot[k], &pair, p, n, to);
-        *left = n == 0 && far > pair.reach ? (real)(far - pair.reach) : (real)0.0;
-        if (*left > (real)0.0 && !l->live[slot[k]])
-            l->live[slot[k]] = LIVE_REACH; /* so that it is kept or cleared with the slot */
+        head[HEAD_APART] = n == 0 && far > pair.reach ? (real)(far - pair.reach) : (real)0.0;
+        if (!l->live[slot[k]])
+            l->live[slot[k]] = LIVE_REACH; /* so that the head is kept or cleared with the slot */
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;

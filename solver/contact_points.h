@@ -1,10 +1,9 @@
 /* contact_points.h - any number of contacts in a slot: what pairs and walls have in common.
  *
- * The memory of a slot: shape.memory reals of the shape; SLOT_HEAD reals, of which the first tells how
- * many records, from the first on, may be in use, and the second by how much the bodies are apart at least, where
- * that is known; and the records, one for each contact that there may
- * be: RECORD_HEAD reals - a code, zero for a free record, else made of the id of the contact and of
- * whether it overlapped; its place in the frame of the slot's owner - and the rows of the laws. */
+ * The memory of a slot: shape.memory reals of the shape; SLOT_HEAD reals; and the records, one for each
+ * contact that there may be: RECORD_HEAD reals - a code, zero for a free record, else made of the id of
+ * the contact and of whether it overlapped; its place in the frame of the slot's owner - and the rows of
+ * the laws. */
 #ifndef CONTACT_POINTS_H
 #define CONTACT_POINTS_H
 
@@ -15,6 +14,10 @@
 #include "sim.h"
 
 enum { SLOT_HEAD = 4, RECORD_HEAD = 4, POINTS_MOST = 256 };
+/* The head of a slot: how many records, from the first on, may be in use; m, by how much more than the reach
+ * the bodies are apart at least, 0: not known; m, by how much they may have come nearer since the shape was
+ * last asked, and whether it has been. */
+enum { HEAD_USED, HEAD_APART, HEAD_NEARER, HEAD_ASKED };
 #define RECORD_NEW (real)2.0 /* a code: in use, did not overlap */
 
 /* How the memory of slots is cut. */
@@ -35,12 +38,12 @@ static inline real *points_record(const struct cut *c, real *memory, int k)
 /* Records that may be in use. */
 static inline int points_used(const struct cut *c, const real *memory)
 {
-    return (int)memory[c->head];
+    return (int)memory[c->head + HEAD_USED];
 }
 
 static inline void points_use(const struct cut *c, real *memory, int records)
 {
-    memory[c->head] = (real)records;
+    memory[c->head + HEAD_USED] = (real)records;
 }
 
 static inline int record_id(const real *record)

@@ -38,13 +38,35 @@ static inline double total(lanes x)
 
 static inline double greatest(lanes x)
 {
-    double most = x[0];
-    for (int k = 1; k < LANES; k++)
-        most = x[k] > most ? x[k] : most;
-    return most;
+    const lanes a = lanes_greater(x, __builtin_shuffle(x, (counts){4, 5, 6, 7, 0, 1, 2, 3}));
+    const lanes b = lanes_greater(a, __builtin_shuffle(a, (counts){2, 3, 0, 1, 6, 7, 4, 5}));
+    return b[0] > b[1] ? b[0] : b[1];
 }
 
-void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top)
+/* The totals of eight, added in the order of `total`. */
+static inline lanes totals(const lanes x[8])
+{
+    const counts low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15},
+                 low2 = {0, 1, 4, 5, 8, 9, 12, 13}, high2 = {2, 3, 6, 7, 10, 11, 14, 15},
+                 even = {0, 2, 4, 6, 8, 10, 12, 14}, odd = {1, 3, 5, 7, 9, 11, 13, 15};
+    lanes a[4], b[2];
+    for (int k = 0; k < 4; k++)
+        a[k] = __builtin_shuffle(x[2 * k], x[2 * k + 1], low4) +
+               __builtin_shuffle(x[2 * k], x[2 * k + 1], high4);
+    for (int k = 0; k < 2; k++)
+        b[k] = __builtin_shuffle(a[2 * k], a[2 * k + 1], low2) +
+               __builtin_shuffle(a[2 * k], a[2 * k + 1], high2);
+    return __builtin_shuffle(b[0], b[1], even) + __builtin_shuffle(b[0], b[1], odd);
+}
+
+/* The parts of the vertices, not yet over their sum. */
+struct parts {
+    double sum;
+    _Alignas(64) double of[POLYHEDRON_MOST];
+};
+
+/* The height of the top, and the parts there. */
+static inline double find_height(const struct crown *c, vec3 along, struct parts *part)
 {
     const struct points *const p = &c->at;
     const vec3 b = v3_scale(c->sharp, along);
@@ -56,34 +78,57 @@ void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top)
         most = lanes_greater(h, most);
     }
     const double high = greatest(most);
-    lanes s = {0.0}, sx = s, sy = s, sz = s, xx = s, yy = s, zz = s, xy = s, xz = s, yz = s;
+    lanes s = {0.0};
     for (int k = 0; k < p->room; k += LANES) {
         const lanes x = lanes_load(p->x + k), y = lanes_load(p->y + k),
                     z = lanes_load(p->z + k);
         const lanes e =
             exponential(lanes_load(c->log_weight + k) + b.x * x + b.y * y + b.z * z - high);
-        const lanes ex = e * x, ey = e * y, ez = e * z;
+        memcpy(part->of + k, &e, sizeof e);
         s += e;
-        sx += ex;
-        sy += ey;
-        sz += ez;
-        xx += ex * x;
-        yy += ey * y;
-        zz += ez * z;
-        xy += ex * y;
-        xz += ex * z;
+    }
+    part->sum = total(s);
+    return (high + log(part->sum)) / c->sharp;
+}
+
+/* Where the top is, and the variances. */
+static inline void find_place(const struct crown *c, const struct parts *part,
+                              struct crown_top *top)
+{
+    const struct points *const p = &c->at;
+    lanes s[8] = {{0.0}}, yz = {0.0};
+    for (int k = 0; k < p->room; k += LANES) {
+        const lanes x = lanes_load(p->x + k), y = lanes_load(p->y + k),
+                    z = lanes_load(p->z + k);
+        const lanes e = lanes_load(part->of + k);
+        const lanes ex = e * x, ey = e * y, ez = e * z;
+        s[0] += ex;
+        s[1] += ey;
+        s[2] += ez;
+        s[3] += ex * x;
+        s[4] += ey * y;
+        s[5] += ez * z;
+        s[6] += ex * y;
+        s[7] += ex * z;
         yz += ey * z;
     }
-    const double sum = total(s), per = 1.0 / sum;
-    const vec3 at = v3(total(sx) * per, total(sy) * per, total(sz) * per);
+    const double per = 1.0 / part->sum;
+    const lanes mean = totals(s) * per;
+    const vec3 at = v3(mean[0], mean[1], mean[2]);
     top->at = at;
-    top->height = (high + log(sum)) / c->sharp;
-    top->xx = total(xx) * per - at.x * at.x;
-    top->yy = total(yy) * per - at.y * at.y;
-    top->zz = total(zz) * per - at.z * at.z;
-    top->xy = total(xy) * per - at.x * at.y;
-    top->xz = total(xz) * per - at.x * at.z;
+    top->xx = mean[3] - at.x * at.x;
+    top->yy = mean[4] - at.y * at.y;
+    top->zz = mean[5] - at.z * at.z;
+    top->xy = mean[6] - at.x * at.y;
+    top->xz = mean[7] - at.x * at.z;
     top->yz = total(yz) * per - at.y * at.z;
+}
+
+void crown_find_top(const struct crown *c, vec3 along, struct crown_top *top)
+{
+    struct parts part;
+    top->height = find_height(c, along, &part);
+    find_place(c, &part, top);
 }
 
 void crown_weights(const struct polyhedron *p, double *log_weight)
@@ -189,22 +234,25 @@ bool crown_find_gap(const struct crown *a, const struct crown *b, vec3 line, dou
 {
     const double ba = a->sharp, bb = b->sharp, size = CROWN_SHARP / fmax(ba, bb);
     struct crown_top ta, tb;
+    struct parts pa, pb;
     struct flat va, vb;
     vec3 m = start, base = start, q = v3(0.0, 0.0, 0.0);
     double last = (double)INFINITY, part = 1.0, before = 0.0, gain = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
-        crown_find_top(a, v3_scale(-1.0, m), &ta);
-        crown_find_top(b, m, &tb);
-        const vec3 w = v3_sub(ta.at, tb.at);
-        const double h = v3_dot(w, m);
-        vec3 g = v3_axpy(w, -h, m);
-        g = v3_axpy(g, -v3_dot(g, line), line);
-        const double error = v3_norm(g);
+        ta.height = find_height(a, v3_scale(-1.0, m), &pa);
+        tb.height = find_height(b, m, &pb);
         out->gap = -ta.height - tb.height;
         if (out->gap >= reach) {
             out->normal = m;
             return false;
         }
+        find_place(a, &pa, &ta);
+        find_place(b, &pb, &tb);
+        const vec3 w = v3_sub(ta.at, tb.at);
+        const double h = v3_dot(w, m);
+        vec3 g = v3_axpy(w, -h, m);
+        g = v3_axpy(g, -v3_dot(g, line), line);
+        const double error = v3_norm(g);
         if (error <= TIGHT * size)
             break;
         /* climbs, by a part of what the slope promises, as long as that is above round-off */

@@ -63,9 +63,10 @@ void dilated_surface(const struct dilated *d, struct shape_canvas *c);
 double dilated_shadow(const struct dilated *d, vec3 along);
 void dilated_make_shadows(struct dilated *d);
 
-/* Points of contact of a pair, see shapes/shape.h; the memory has DILATED_MEMORY reals for each of
- * DILATED_KEPT pairs of parts. */
-enum { DILATED_KEPT = 6, DILATED_MEMORY = 7 };
+/* Points of contact of a pair, see shapes/shape.h. The memory: how far apart pairs of parts are, the first
+ * DILATED_LEFT of them, a real each; then DILATED_MEMORY reals for each of `kept` pairs of parts. One
+ * part a body: the latter alone, once. */
+enum { DILATED_LEFT = 144, DILATED_KEPT = 16, DILATED_MEMORY = 7 };
 int dilated_points(const struct dilated *i, const struct dilated *j,
                    const struct detection *how, const struct shape_pair *p, int kept, int most,
                    struct shape_point *out);

@@ -1,9 +1,9 @@
 /* shapes/geometry/dilated_pair.c - where two bodies of dilated polyhedra touch.
  *
  * All is done in the body frame of i, with its size as the unit: the vertices of i then stand where
- * they are stored, and those of j are turned once a pair. For pairs of parts that are far apart
- * the direction kept from the last step tells so: one look for the lowest and highest vertex
- * along it. */
+ * they are stored, and those of j are turned once a pair. A pair of parts that was found apart is passed
+ * over until the bodies may have come that much nearer; then boxes tell, then the direction kept from
+ * the last look: the lowest and highest vertex along it. */
 #include "dilated.h"
 #include "envelope.h"
 
@@ -12,6 +12,7 @@
 /* j as seen by i. */
 struct view {
     vec3 axes[3], place; /* of j's frame in that of i, in sizes of i */
+    vec3 wide[3];        /* the axes' components without their signs */
     double scale;        /* size of j over that of i */
     double reach;        /* in sizes of i */
 };
@@ -36,35 +37,39 @@ static void look(const struct shape_pose *i, const struct shape_pose *j, double 
     const vec3 column[3] = {{b->row[0].x, b->row[1].x, b->row[2].x},
                             {b->row[0].y, b->row[1].y, b->row[2].y},
                             {b->row[0].z, b->row[1].z, b->row[2].z}};
-    for (int k = 0; k < 3; k++)
-        v->axes[k] = mat3_back(a, column[k]);
+    for (int k = 0; k < 3; k++) {
+        const vec3 e = v->axes[k] = mat3_back(a, column[k]);
+        v->wide[k] = v3(fabs(e.x), fabs(e.y), fabs(e.z));
+    }
     v->place = v3_scale(per, mat3_back(a, v3_sub(j->centre, i->centre)));
     v->scale = j->size * per;
     v->reach = reach * per;
 }
 
-/* Distance of a point from a box. */
-static double from_box(vec3 x, const struct dilated_part *p)
+static double most_of(vec3 x)
 {
-    const vec3 d = v3_sub(x, p->middle);
-    const double dx = fmax(fabs(d.x) - p->half.x, 0.0), dy = fmax(fabs(d.y) - p->half.y, 0.0),
-                 dz = fmax(fabs(d.z) - p->half.z, 0.0);
-    return sqrt(dx * dx + dy * dy + dz * dz);
+    return fmax(x.x, fmax(x.y, x.z));
 }
 
-/* A lower bound of how far apart two parts are: by their balls and their boxes. */
+/* A lower bound of how far apart two parts are: by their balls, then by their boxes along the sides
+ * of either, of the axes that can part two boxes [GottschalkLinManocha96] those that cost little. */
 static double far_apart(const struct dilated_part *a, const struct dilated_part *b,
                         const struct view *v)
 {
-    const vec3 middle = out_of(v, b->middle), apart = v3_sub(middle, a->middle);
-    const double ball_b = v->scale * b->radius, balls = v3_norm(apart) - a->radius - ball_b;
-    if (balls > v->reach)
-        return balls;
-    const double ball = from_box(middle, a) - ball_b;
-    if (ball > v->reach)
-        return ball;
-    const vec3 back = v3_scale(1.0 / v->scale, into_own(v->axes, v3_sub(a->middle, v->place)));
-    return from_box(back, b) * v->scale - a->radius;
+    const vec3 d = v3_sub(out_of(v, b->middle), a->middle);
+    const double reach = a->radius + v->scale * b->radius + v->reach, square = v3_dot(d, d);
+    if (square > reach * reach)
+        return sqrt(square) - (reach - v->reach);
+    const vec3 h = v3_scale(v->scale, b->half), *const w = v->wide;
+    const double along_a =
+        most_of(v3(fabs(d.x) - a->half.x - (w[0].x * h.x + w[1].x * h.y + w[2].x * h.z),
+                   fabs(d.y) - a->half.y - (w[0].y * h.x + w[1].y * h.y + w[2].y * h.z),
+                   fabs(d.z) - a->half.z - (w[0].z * h.x + w[1].z * h.y + w[2].z * h.z)));
+    if (along_a > v->reach)
+        return along_a;
+    return most_of(v3(fabs(v3_dot(v->axes[0], d)) - h.x - v3_dot(w[0], a->half),
+                      fabs(v3_dot(v->axes[1], d)) - h.y - v3_dot(w[1], a->half),
+                      fabs(v3_dot(v->axes[2], d)) - h.z - v3_dot(w[2], a->half)));
 }
 
 /* What is kept of a pair of parts between steps. */
@@ -171,8 +176,8 @@ struct parts {
     const struct polyhedron *a, *b;
     const double *weights_a, *weights_b;
     int pair, first_id;
-    double *
-        apart; /* sizes of i; lowered to a bound of how far apart they are where they do not touch */
+    real *memory;
+    double *apart; /* sizes of i; a bound of how far apart they are, where they do not touch */
 };
 
 static int gather(const struct shape_pair *p, const struct parts *w,
@@ -225,8 +230,8 @@ static int crown_points(const struct shape_pair *p, const struct parts *w, const
     struct patch_point q[4];
     const bool near = crown_find_gap(&a, &b, v3(0.0, 0.0, 0.0), reach, keep->direction, &g);
     keep->direction = g.normal;
-    remember(p->memory, kept, w->pair, keep);
-    *w->apart = fmin(*w->apart, g.gap - dilation);
+    remember(w->memory, kept, w->pair, keep);
+    *w->apart = g.gap - dilation;
     if (!near)
         return have;
     const int n = spread(&g, fmin(1.0, v->scale), q);
@@ -244,17 +249,14 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     struct scratch s;
     struct gap gap;
     struct patch_point q[PATCH_MOST];
-    const double before = *w->apart,
-                 slack = how->detector == DETECTOR_GJK ? CROWN_SLACK * (1.0 + v->scale) : 0.0;
-    const bool known = recall(p->memory, kept, w->pair, &keep);
-    if (known) {
+    const double slack = how->detector == DETECTOR_GJK ? CROWN_SLACK * (1.0 + v->scale) : 0.0;
+    if (recall(w->memory, kept, w->pair, &keep)) {
         const double far = along(w->a, w->b, v, keep.direction) - slack;
-        *w->apart = fmin(*w->apart, far - dilation);
+        *w->apart = far - dilation;
         if (far > reach)
             return have;
         if (how->detector == DETECTOR_GJK && far > 0.0) {
             turn_vertices(w->b, v, &s);
-            *w->apart = before;
             return crown_points(p, w, v, &s, &keep, kept, most, have, out);
         }
     }
@@ -263,8 +265,8 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     gap_find(&pa, w->a, &pb, w->b, v->axes, reach + MORE, &keep.simplex, &gap);
     gap.distance -= slack;
     keep.direction = gap.normal;
-    remember(p->memory, kept, w->pair, &keep);
-    *w->apart = fmin(before, gap.distance - dilation);
+    remember(w->memory, kept, w->pair, &keep);
+    *w->apart = gap.distance - dilation;
     if (gap.distance >= reach)
         return have;
     if (how->detector == DETECTOR_GJK)
@@ -283,36 +285,53 @@ static int part_points(const struct shape_pair *p, const struct parts *w, const 
     return gather(p, w, q, n, gap.normal, v, most, have, out);
 }
 
+/* Takes what the bodies have come nearer off what parts two of their parts, m; is something left? */
+static bool still_apart(const struct shape_pair *p, real *left)
+{
+    if (!(*left > (real)0.0 && p->approached > 0.0))
+        return false;
+    *left -= (real)p->approached;
+    return *left > (real)0.0;
+}
+
 int dilated_points(const struct dilated *i, const struct dilated *j,
                    const struct detection *how, const struct shape_pair *p, int kept, int most,
                    struct shape_point *out)
 {
     struct view v;
-    int n = 0, first = 0;
-    double apart = (double)INFINITY;
+    int n = 0, first = 0, pair = 0;
+    const bool several = i->n_parts + j->n_parts > 2;
+    double least = (double)INFINITY;
     look(&p->i, &p->j, p->reach, &v);
     for (int a = 0; a < i->n_parts; a++)
-        for (int b = 0; b < j->n_parts; b++) {
+        for (int b = 0; b < j->n_parts; b++, pair++) {
+            real *const left = kept > 1 && pair < DILATED_LEFT ? &p->memory[pair] : NULL;
+            const int id = first;
+            first += patch_ids(i->part[a].core, j->part[b].core);
+            if (left && still_apart(p, left)) {
+                least = fmin(least, v.reach + (double)*left / p->i.size);
+                continue;
+            }
+            double apart = (double)INFINITY;
             const struct parts w = {i,
                                     j,
                                     i->part[a].core,
                                     j->part[b].core,
                                     i->part[a].log_weight,
                                     j->part[b].log_weight,
-                                    a * j->n_parts + b,
-                                    first,
+                                    pair,
+                                    id,
+                                    p->memory + (kept > 1 ? DILATED_LEFT : 0),
                                     &apart};
-            first += patch_ids(w.a, w.b);
-            if (i->n_parts + j->n_parts > 2) {
-                const double far = far_apart(&i->part[a], &j->part[b], &v);
-                if (far > v.reach) {
-                    apart = fmin(apart, far);
-                    continue;
-                }
-            }
-            n = part_points(p, &w, &v, how, kept, most, n, out);
+            if (several)
+                apart = far_apart(&i->part[a], &j->part[b], &v);
+            if (!several || apart <= v.reach)
+                n = part_points(p, &w, &v, how, kept, most, n, out);
+            least = fmin(least, apart);
+            if (left)
+                *left = (real)fmax(p->i.size * (apart - v.reach), 0.0);
         }
     if (n == 0 && p->apart)
-        *p->apart = p->i.size * apart;
+        *p->apart = p->i.size * least;
     return n;
 }
