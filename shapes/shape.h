@@ -80,7 +80,8 @@ struct shape_pair {
         apart; /* m, NULL or where a shape that finds no points may leave a lower bound of how far
                       apart the bodies are: the pair is passed over until they may have moved by that.
                       It comes as 0, nothing is known. */
-    double approached; /* m; by how much, at most, any two places of the bodies have come nearer to each
+    double
+        approached; /* m; by how much, at most, any two places of the bodies have come nearer to each
                           other since the shape was last asked about this pair, with this memory; 0: not
                           known */
 };

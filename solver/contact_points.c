@@ -456,7 +456,8 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             enter_points(s, b, &cut, slot[k], &pair, p, n, to);
         head[HEAD_APART] = n == 0 && far > pair.reach ? (real)(far - pair.reach) : (real)0.0;
         if (!l->live[slot[k]])
-            l->live[slot[k]] = LIVE_REACH; /* so that the head is kept or cleared with the slot */
+            l->live[slot[k]] =
+                LIVE_REACH; /* so that the head is kept or cleared with the slot */
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;

@@ -20,8 +20,8 @@
 #include "../solver/base.h"
 #include "../solver/rotation.h"
 
-#define PI    3.14159265358979323846
-#define FINE  0.5 /* mm */
+#define PI   3.14159265358979323846
+#define FINE 0.5 /* mm */
 
 enum { STROKES_MOST = 4, NEAR_MOST = 27, TRIES = 100000 };
 
@@ -52,7 +52,8 @@ static void add(struct letter *l, double left0, double left1, double wide, doubl
 static bool make_letter(struct letter *l, char name, double core, double r)
 {
     const double more = 2.0 * r;
-    *l = (struct letter){.wide = 100.0 + more, .thick = 30.0 + more, .high = 180.0 + more, .r = r};
+    *l = (struct letter){
+        .wide = 100.0 + more, .thick = 30.0 + more, .high = 180.0 + more, .r = r};
     const double y = 0.5 * l->wide, z = 0.5 * l->high, t = core + more, bar = -40.0 - r;
     switch (name) {
     case 'O':
@@ -81,7 +82,8 @@ static bool make_letter(struct letter *l, char name, double core, double r)
         add(l, y - t, -0.5 * t, t, -z, z);
         add(l, -0.5 * y, -0.5 * y, y, bar, bar + t);
         return true;
-    default: return false;
+    default:
+        return false;
     }
 }
 
@@ -106,13 +108,15 @@ static void weigh(struct letter *l)
     const int across = (int)(l->wide / FINE), up = (int)(l->high / FINE);
     for (int i = 0; i < across; i++)
         for (int j = 0; j < up; j++) {
-            const double y = (i + 0.5) * FINE - 0.5 * l->wide, z = (j + 0.5) * FINE - 0.5 * l->high;
+            const double y = (i + 0.5) * FINE - 0.5 * l->wide,
+                         z = (j + 0.5) * FINE - 0.5 * l->high;
             double d = (double)INFINITY;
             for (int k = 0; k < l->n; k++)
                 d = fmin(d, outside(&l->core[k], y, z));
             if (d >= l->r)
                 continue;
-            const double v = FINE * FINE * (l->thick - 2.0 * l->r + 2.0 * sqrt(l->r * l->r - d * d));
+            const double v =
+                FINE * FINE * (l->thick - 2.0 * l->r + 2.0 * sqrt(l->r * l->r - d * d));
             l->volume += v;
             l->y += v * y;
             l->z += v * z;
@@ -282,7 +286,8 @@ int main(int argc, char **argv)
     const bool all = place(&l, count, strtoul(argv[6], NULL, 10), base, height, f);
     fclose(f);
     if (!all) {
-        fprintf(stderr, "%d letters find no room in %g x %g x %g mm\n", count, base, base, height);
+        fprintf(stderr, "%d letters find no room in %g x %g x %g mm\n", count, base, base,
+                height);
         return 2;
     }
     printf("%.4f %.4f\n", cbrt(6.0 / PI * l.volume), count * l.volume / (base * base * height));
