@@ -4,11 +4,12 @@
  * The form comes from a file (grains.form): an STL surface, closed, whose distance is computed on a
  * grid of grains.form_cells over its longest edge; or netCDF with the voxels of a scan (`solid`) or
  * with the distance itself (`distance`). Its volume is that of grains.diameter. Grains touch where
- * nodes of the surface of one, grains.node_spacing apart, lie inside the other, both ways; each
- * cluster of such nodes is a contact (solver/field_pair.c). Between nodes the surface is not felt: a
- * depth is too small by up to the square of the spacing over 8 radii of curvature. Walls are met by
- * balls that cover the surface from within, to 1 % of the size. Radii for the contact law are the
- * volume-equivalent ones. */
+ * nodes of the surface of one, grains.node_spacing apart, lie inside the other, both ways: the pair has one
+ * depth, made of those of all nodes, such that the laws' elastic force is the gradient of an energy and
+ * Hertz' law that of the curvature that the surfaces have there; radii for the contact law are the
+ * volume-equivalent ones (solver/field_pair.c). Between nodes the surface is not felt: a depth is off by
+ * about the square of the spacing over 8 radii of curvature. Walls are met by balls that cover the surface from
+ * within, to 1 % of the size. */
 #include "shape.h"
 
 #include <string.h>
@@ -18,7 +19,7 @@
 #include "../solver/scene.h"
 #include "../solver/shadow.h"
 
-enum { PLACES = 8 }; /* contacts of a pair, at most */
+enum { PLACES = 32 }; /* points of contact of a pair, at most */
 
 const struct about shape_about = {
     .name = "level_set",
@@ -125,21 +126,25 @@ static int points(const struct shape_pair *p, int most, struct shape_point *out)
     const struct field_placed i = {.body = bi, .size = p->i.size, .turn = p->i.turn};
     const struct field_placed j = {.body = bj, .size = p->j.size, .turn = p->j.turn};
     struct field_touch touch[PLACES];
-    const int room = most < PLACES ? most : PLACES;
-    const int n = field_meet(&i, &j, v3_scale(-1.0, p->j.centre), p->reach, room, touch);
-    for (int k = 0; k < (n < room ? n : room); k++)
-        out[k] =
-            (struct shape_point){.id = touch[k].node,
-                                 .depth = touch[k].depth,
-                                 .normal = touch[k].normal,
-                                 .at_i = touch[k].at,
-                                 .at_j = v3_sub(touch[k].at, p->j.centre),
-                                 .from_i = touch[k].at,
-                                 .from_j = v3_sub(touch[k].at, p->j.centre),
-                                 .r_i = p->i.size,
-                                 .r_j = p->j.size,
-                                 .scale = fmin(bi->thin * p->i.size, bj->thin * p->j.size)};
-    return n <= room ? n : most + n;
+    double clear;
+    const int n = field_meet(&i, &j, v3_scale(-1.0, p->j.centre), p->reach,
+                             most < PLACES ? most : PLACES, touch, &clear);
+    if (n == 0 && p->apart)
+        *p->apart = clear;
+    for (int k = 0; k < n; k++)
+        out[k] = (struct shape_point){.id = touch[k].id,
+                                      .depth = touch[k].depth,
+                                      .normal = touch[k].normal,
+                                      .at_i = touch[k].at,
+                                      .at_j = v3_sub(touch[k].at, p->j.centre),
+                                      .from_i = touch[k].at,
+                                      .from_j = v3_sub(touch[k].at, p->j.centre),
+                                      .r_i = p->i.size,
+                                      .r_j = p->j.size,
+                                      .scale = fmin(bi->thin * p->i.size, bj->thin * p->j.size),
+                                      .share = touch[k].share,
+                                      .slope = touch[k].slope};
+    return n;
 }
 
 static const struct shape_ball *balls(int species, int *n)

@@ -110,6 +110,10 @@ struct shape_point {
         share; /* where several points share one stiffness (the corners of two faces in contact):
                      the part of this one, by which the laws' forces, couples and energy are
                      multiplied. 0 is taken as 1: a point of its own */
+    double
+        slope; /* where the depth is no length along the normal, but made of many: how fast it grows as
+                     the bodies approach at this point; forces and couples are multiplied by it too, so
+                     that they follow from the energy. 0 is taken as 1 */
 };
 
 /* The point at which two balls touch: the rounded vertices, edges and faces of shapes. Centres as
@@ -134,6 +138,7 @@ static inline void shape_balls_touch(struct shape_point *restrict p, vec3 ci, do
     p->lever = v3(0.0, 0.0, 0.0);
     p->scale = ri < rj ? ri : rj;
     p->share = 0.0;
+    p->slope = 0.0;
 }
 
 static inline struct shape_point shape_balls_meet(vec3 ci, double ri, vec3 cj, double rj,

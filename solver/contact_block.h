@@ -66,6 +66,7 @@ struct block {
     real *memory[TOUCH]; /* rows of the laws */
     bool was[TOUCH];     /* it overlapped at the step before */
     real share[TOUCH];   /* of the stiffness of its pair: factor of forces, couples, energy */
+    real slope[TOUCH];   /* of its depth: another factor of forces and couples */
     real scale[TOUCH];   /* m, that overlap is measured by */
     bool rocks;          /* some contact has a lever */
     vec3 lever[TOUCH];   /* m, from the middle of its patch */

@@ -57,6 +57,7 @@ int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
     b->was[c] = o->was;
     b->scale[c] = (real)p->scale;
     b->share[c] = p->share > 0.0 ? (real)p->share : (real)1.0;
+    b->slope[c] = p->slope > 0.0 ? (real)p->slope : (real)1.0;
     b->lever[c] = p->lever;
     b->rocks = b->rocks || v3_dot(p->lever, p->lever) > 0.0;
     t->depth[c] = (real)p->depth;
@@ -106,11 +107,11 @@ static void pad(struct block *b)
     const int last = b->n - 1;
     int n = b->n;
     for (; n % TOUCH_LANES != 0; n++) {
-        real *const array[] = {t->depth, t->nx,    t->ny,    t->nz,   t->r_i,  t->r_j,
-                               b->curve, b->inv_m, t->vx,    t->vy,   t->vz,   b->vx,
-                               b->vy,    b->vz,    b->px,    b->py,   b->pz,   b->qx,
-                               b->qy,    b->qz,    b->l.ix,  b->l.iy, b->l.iz, b->l.jx,
-                               b->l.jy,  b->l.jz,  b->scale, b->share};
+        real *const array[] = {t->depth, t->nx,    t->ny,    t->nz,    t->r_i,  t->r_j,
+                               b->curve, b->inv_m, t->vx,    t->vy,    t->vz,   b->vx,
+                               b->vy,    b->vz,    b->px,    b->py,    b->pz,   b->qx,
+                               b->qy,    b->qz,    b->l.ix,  b->l.iy,  b->l.iz, b->l.jx,
+                               b->l.jy,  b->l.jz,  b->scale, b->share, b->slope};
         for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
             array[k][n] = array[k][last];
         b->slot[n] = b->slot[last];
@@ -161,12 +162,13 @@ static void share_out(struct block *b)
 {
     struct touch *const t = &b->t;
     for (int c = 0; c < t->n; c++) {
-        t->fx[c] *= b->share[c];
-        t->fy[c] *= b->share[c];
-        t->fz[c] *= b->share[c];
-        t->mx[c] *= b->share[c];
-        t->my[c] *= b->share[c];
-        t->mz[c] *= b->share[c];
+        const real part = b->share[c] * b->slope[c];
+        t->fx[c] *= part;
+        t->fy[c] *= part;
+        t->fz[c] *= part;
+        t->mx[c] *= part;
+        t->my[c] *= part;
+        t->mz[c] *= part;
     }
 }
 
@@ -317,7 +319,8 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
                                    .i = l->owner[slot],
                                    .j = l->other[slot],
                                    .record = at,
-                                   .was = record_overlapped(at),
+                                   .was = record_overlapped(at) ||
+                                          (p[k].slope > 0.0 && l->live[slot] == LIVE_OVERLAP),
                                    .p = &p[k]};
         at[0] = (real)(2 * (p[k].id + 1) + over);
         at[1] = (real)place[k].x;

@@ -24,9 +24,30 @@ void distance_free(struct distance_field *f)
     xfree(f);
 }
 
-/* The cell of a point, clamped to the grid, and where in it. */
+/* Control values c of the quadratic B-spline from those v at the nodes: at a node the spline is (I + sum
+ * delta_a^2/8 + ...) c, so c = v - sum delta_a^2 v/8 but for fourth differences. Nodes at the edge keep
+ * theirs. */
+void distance_make_spline(struct distance_field *f)
+{
+    const int *const n = f->n;
+    const size_t sj = (size_t)n[0], sk = sj * (size_t)n[1], total = sk * (size_t)n[2];
+    float *const v = xalloc(total + 1, sizeof *v);
+    memcpy(v, f->value, total * sizeof *v);
+    for (int k = 1; k < n[2] - 1; k++)
+        for (int j = 1; j < n[1] - 1; j++)
+            for (int i = 1; i < n[0] - 1; i++) {
+                const float *const at = v + (size_t)i + sj * (size_t)j + sk * (size_t)k;
+                const double middle = (double)*at;
+                const double sum = (double)at[1] + (double)at[-1] + (double)at[sj] +
+                                   (double)*(at - sj) + (double)at[sk] + (double)*(at - sk);
+                f->value[at - v] = (float)(middle - (sum - 6.0 * middle) / 8.0);
+            }
+    xfree(v);
+}
+
+/* The node next to a point, clamped to the inner ones, and where from it. */
 struct spot {
-    size_t at;
+    const float *at; /* the first of the 27 */
     double t[3];
     double beyond; /* distance from the grid */
 };
@@ -41,12 +62,13 @@ static inline struct spot find(const struct distance_field *f, vec3 x)
     double square = 0.0;
     for (int a = 0; a < 3; a++) {
         const double in = fmin(fmax(p[a], 0.0), f->n[a] - 1.0);
-        c[a] = (int)in;
-        c[a] = c[a] < f->n[a] - 1 ? c[a] : f->n[a] - 2;
+        c[a] = (int)(in + 0.5);
+        c[a] = c[a] < 1 ? 1 : c[a] < f->n[a] - 1 ? c[a] : f->n[a] - 2;
         s.t[a] = in - c[a];
         square += (p[a] - in) * (p[a] - in);
     }
-    s.at = (size_t)c[0] + (size_t)f->n[0] * ((size_t)c[1] + (size_t)f->n[1] * (size_t)c[2]);
+    s.at = f->value + (size_t)(c[0] - 1) +
+           (size_t)f->n[0] * ((size_t)(c[1] - 1) + (size_t)f->n[1] * (size_t)(c[2] - 1));
     s.beyond = square > 0.0 ? f->spacing * sqrt(square) : 0.0;
     return s;
 }
@@ -57,20 +79,40 @@ double distance_at(const struct distance_field *f, vec3 x)
     return distance_slope(f, x, &gradient);
 }
 
+/* Of one dimension: the weights and how they change. */
+static inline void weights(double t, double w[3], double d[3])
+{
+    w[0] = 0.5 * (0.5 - t) * (0.5 - t);
+    w[1] = 0.75 - t * t;
+    w[2] = 0.5 * (0.5 + t) * (0.5 + t);
+    d[0] = t - 0.5;
+    d[1] = -2.0 * t;
+    d[2] = t + 0.5;
+}
+
 double distance_slope(const struct distance_field *f, vec3 x, vec3 *gradient)
 {
     const struct spot s = find(f, x);
-    const float *const v = f->value + s.at;
     const size_t sj = (size_t)f->n[0], sk = sj * (size_t)f->n[1];
-    const double u = s.t[0], w = s.t[1], t = s.t[2];
-    const double d00 = (double)(v[1] - v[0]), d10 = (double)(v[sj + 1] - v[sj]);
-    const double d01 = (double)(v[sk + 1] - v[sk]), d11 = (double)(v[sk + sj + 1] - v[sk + sj]);
-    const double a00 = (double)v[0] + u * d00, a10 = (double)v[sj] + u * d10;
-    const double a01 = (double)v[sk] + u * d01, a11 = (double)v[sk + sj] + u * d11;
-    const double b0 = a00 + w * (a10 - a00), b1 = a01 + w * (a11 - a01);
-    const double x0 = d00 + w * (d10 - d00), x1 = d01 + w * (d11 - d01);
-    const double y0 = a10 - a00, y1 = a11 - a01, value = b0 + t * (b1 - b0);
-    *gradient = v3_scale(f->inv_spacing, v3(x0 + t * (x1 - x0), y0 + t * (y1 - y0), b1 - b0));
+    double u[3], v[3], w[3], du[3], dv[3], dw[3], value = 0.0;
+    vec3 g = {0.0, 0.0, 0.0};
+    weights(s.t[0], u, du);
+    weights(s.t[1], v, dv);
+    weights(s.t[2], w, dw);
+    for (int k = 0; k < 3; k++) {
+        double sum = 0.0, by_x = 0.0, by_y = 0.0;
+        for (int j = 0; j < 3; j++) {
+            const float *const c = s.at + (size_t)j * sj + (size_t)k * sk;
+            const double a = (double)c[0], b = (double)c[1], e = (double)c[2];
+            const double row = u[0] * a + u[1] * b + u[2] * e;
+            sum += v[j] * row;
+            by_y += dv[j] * row;
+            by_x += v[j] * (du[0] * a + du[1] * b + du[2] * e);
+        }
+        value += w[k] * sum;
+        g = v3_add(g, v3(w[k] * by_x, w[k] * by_y, dw[k] * sum));
+    }
+    *gradient = v3_scale(f->inv_spacing, g);
     return s.beyond > 0.0 ? fmax(s.beyond, value - s.beyond) : value;
 }
 
@@ -191,6 +233,7 @@ struct distance_field *distance_of_voxels(const unsigned char *solid, const int 
     }
     for (size_t c = 0; c < total; c++)
         f->value[c] = (float)(edge * to[0][c]);
+    distance_make_spline(f);
     xfree(to[0]);
     xfree(to[1]);
     xfree(w.d);

@@ -1,7 +1,8 @@
 /* distance_field.h - a body given by its signed distance on a regular grid: < 0 inside.
  *
- * Made of a closed surface of triangles, of an array of voxels, or read as it is. Values between
- * nodes are trilinear. Lengths in the units of the source, until distance_field_scale. */
+ * Made of a closed surface of triangles, of an array of voxels, or read as it is. Between nodes
+ * it is a quadratic spline in each direction: with a gradient that has no jumps, as a force that follows from
+ * it must have. Lengths in the units of the source, until distance_field_scale. */
 #ifndef DISTANCE_FIELD_H
 #define DISTANCE_FIELD_H
 
@@ -12,7 +13,7 @@ struct distance_field {
     int n[3]; /* nodes */
     double spacing, inv_spacing;
     vec3 origin;  /* of node 0 0 0 */
-    float *value; /* x runs fastest; the owner's, xfree */
+    float *value; /* control values of the spline; x runs fastest; the owner's, xfree */
 };
 
 /* From the corners of n triangles, 3 each, of a closed surface; `across`: nodes over the longest edge
@@ -33,7 +34,7 @@ struct distance_field *distance_read(const char *path, double smooth, char **why
 
 void distance_free(struct distance_field *f);
 
-/* The distance, trilinear; beyond the grid at most the true distance. With its gradient. */
+/* The distance by the spline; beyond the grid at most the true distance. With its gradient. */
 double distance_at(const struct distance_field *f, vec3 x);
 double distance_slope(const struct distance_field *f, vec3 x, vec3 *gradient);
 

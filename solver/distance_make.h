@@ -5,5 +5,6 @@
 #include "distance_field.h"
 
 struct distance_field *distance_new(const int n[3], double spacing, vec3 origin); /* zero */
+void distance_make_spline(struct distance_field *f); /* once all values are there */
 
 #endif

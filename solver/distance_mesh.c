@@ -218,8 +218,10 @@ struct distance_field *distance_of_triangles(const vec3 *corner, int n, int acro
         f->value[m] = (float)d[m];
     xfree(d);
     xfree(exact);
-    if (signs(f, corner, n))
+    if (signs(f, corner, n)) {
+        distance_make_spline(f);
         return f;
+    }
     *why = xprintf("the surface is not closed");
     distance_free(f);
     return NULL;

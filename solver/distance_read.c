@@ -94,6 +94,7 @@ static struct distance_field *read_distance(const struct source *s, const char *
         distance_free(f);
         return NULL;
     }
+    distance_make_spline(f);
     return f;
 }
 

@@ -52,17 +52,20 @@ struct field_placed {
     struct mat3 turn; /* body to lab */
 };
 
-/* Where two bodies overlap: one place for each cluster of nodes of either inside the other. */
+/* Where two bodies overlap: points, each of which takes part in the pair's one depth (field_pair.c). */
 struct field_touch {
-    int node; /* the deepest: of i, or n of i + that of j */
-    double depth;
-    vec3 normal; /* unit, from j to i */
-    vec3 at;     /* m, from x_i, midway in the overlap */
+    int id;
+    double depth; /* m, of the pair: the same for all points */
+    vec3 normal;  /* unit, from j to i */
+    vec3 at;      /* m, from x_i, midway in the overlap */
+    double share; /* of the pair's energy; those of all points add up to 1 */
+    double slope; /* -d(depth)/d(x_i along the normal), of this point, over its share */
 };
 
-/* Up to `most` of them, in a fixed order; returns how many there are. If none overlaps but a node comes
- * within `reach` of the other body, that node with its gap as a negative depth. apart = x_i - x_j. */
+/* Up to `most` of them, 4 or more, in a fixed order; returns how many. If none overlaps but a node
+ * comes within `reach` of the other body, that node with its gap as a negative depth; if none does, 0, and
+ * *clear is a bound of how far apart the bodies are (m; 0: none is known). apart = x_i - x_j. */
 int field_meet(const struct field_placed *i, const struct field_placed *j, vec3 apart,
-               double reach, int most, struct field_touch *out);
+               double reach, int most, struct field_touch *out, double *clear);
 
 #endif

@@ -125,21 +125,44 @@ static void test_mass(void)
     field_body_free(b);
 }
 
-/* Depths of contacts at overlaps of 2 % of the size, against the exact ones: mean of the error. */
-static double pair_error(const struct field_body *b, double *normal, double *place, int *more)
+/* What a pair's points add up to for a law F(depth) = depth^1.5: over that of the depth 1. */
+struct felt {
+    int n;
+    double depth, share;
+    vec3 force, torque; /* about x_i */
+};
+
+static struct felt feel(const struct field_placed *i, const struct field_placed *j, vec3 apart,
+                        double reach)
+{
+    enum { MOST = 32 };
+    struct field_touch f[MOST];
+    double clear;
+    struct felt all = {.n = field_meet(i, j, apart, reach, MOST, f, &clear)};
+    for (int k = 0; k < all.n; k++) {
+        const double part = f[k].share * f[k].slope * pow(fabs(f[k].depth), 1.5);
+        all.depth = f[k].depth;
+        all.share += f[k].share;
+        all.force = v3_axpy(all.force, part, f[k].normal);
+        all.torque = v3_axpy(all.torque, part, v3_cross(f[k].at, f[k].normal));
+    }
+    return all;
+}
+
+/* Forces at overlaps of 2 % of the size against Hertz' with the radii of curvature that there are: mean
+ * of the relative error. */
+static double pair_error(const struct field_body *b, double *normal, double *place)
 {
     const struct superquadric s = exact(b);
     double sum = 0;
     enum { PAIRS = 30 };
     *normal = *place = 0;
-    *more = 0;
     for (int k = 0; k < PAIRS; k++) {
         const struct field_placed i = {.body = b, .size = 1, .turn = turn()};
         const struct field_placed j = {.body = b, .size = 0.7, .turn = turn()};
         const struct superquadric_placed si = {.shape = &s, .size = 1, .turn = i.turn};
         const struct superquadric_placed sj = {.shape = &s, .size = 0.7, .turn = j.turn};
         struct superquadric_touch t = {.normal = {0, 0, 0}};
-        struct field_touch f[8] = {{0}};
         const struct mat3 m = turn();
         vec3 apart = v3_scale(3, m.row[0]);
         for (int step = 0; step < 30; step++) {
@@ -147,11 +170,13 @@ static double pair_error(const struct field_body *b, double *normal, double *pla
             apart = v3_axpy(apart, -(t.gap + 0.02), t.normal);
         }
         superquadric_meet(&si, &sj, apart, 10, &t);
-        const int n = field_meet(&i, &j, apart, 0, 8, f);
-        *more += n != 1;
-        sum += fabs(f[0].depth + t.gap) / PAIRS;
-        *normal += v3_norm(v3_sub(f[0].normal, t.normal)) / PAIRS;
-        *place += v3_norm(v3_sub(f[0].at, v3_axpy(t.at_i, -0.5 * t.gap, t.normal))) / PAIRS;
+        const struct felt f = feel(&i, &j, apart, 0);
+        const double force = v3_norm(f.force), of_depth = sqrt(0.7 / 1.7);
+        const vec3 way = v3_scale(1 / force, f.force);
+        const vec3 arm = v3_axpy(t.at_i, -0.5 * t.gap, t.normal);
+        sum += fabs(of_depth * force / (sqrt(t.r_eff) * pow(-t.gap, 1.5)) - 1) / PAIRS;
+        *normal += v3_norm(v3_sub(way, t.normal)) / PAIRS;
+        *place += v3_norm(v3_sub(v3_scale(1 / force, f.torque), v3_cross(arm, way))) / PAIRS;
     }
     return sum;
 }
@@ -160,59 +185,99 @@ static void test_pairs(void)
 {
     double last = 1;
     for (int fine = 0; fine < 2; fine++) {
-        struct field_body *const b = body(fine ? 64 : 32, fine ? 0.04 : 0.08);
+        struct field_body *const b = body(32 << fine, 0.08 / (1 << fine));
         double normal, place;
-        int more;
-        const double e = pair_error(b, &normal, &place, &more);
-        check(e < (fine ? 1e-3 : 2.5e-3) && e < last && more == 0,
-              "overlaps of 0.02 sizes, %d nodes: depth to %.1e, normal %.1e, place %.1e, %d "
-              "pairs not "
-              "one contact",
-              b->n, e, normal, place, more);
+        const double e = pair_error(b, &normal, &place);
+        check(e < last && e < (fine == 0   ? 0.6
+                               : fine == 1 ? 0.2
+                                           : 0.05),
+              "overlaps of 0.02 sizes, %d nodes: force to %.1e of Hertz', normal %.1e, place "
+              "%.1e",
+              b->n, e, normal, place);
         check(normal < 0.05 && place < 0.05, "normals and places");
         last = e;
         field_body_free(b);
     }
 }
 
+/* The force of any law is the gradient of its energy: of depth^2.5 by differences, as the bodies move and
+ * turn. */
+static void test_potential(void)
+{
+    struct field_body *const b = body(40, 0.06);
+    double worst = 0, least = INFINITY;
+    int met = 0;
+    for (int k = 0; k < 200 && met < 60; k++) {
+        const double h = 1e-6;
+        const struct field_placed i = {.body = b, .size = 1, .turn = turn()},
+                                  j = {.body = b, .size = 0.8, .turn = turn()};
+        const struct mat3 way = turn(), other = turn();
+        const vec3 apart = v3_scale(uniform(1.3, 1.75), way.row[0]), axis = other.row[1];
+        const struct felt f = feel(&i, &j, apart, 0);
+        if (f.n == 0 || f.depth > 0.3)
+            continue;
+        met++;
+        least = fmin(least, f.depth);
+        double energy[2], moved[2];
+        for (int side = 0; side < 2; side++) {
+            const double by = side ? h : -h;
+            struct field_placed more = i;
+            const struct mat3 small = quat_matrix(quat_unit(
+                (struct quat){1, 0.5 * by * axis.x, 0.5 * by * axis.y, 0.5 * by * axis.z}));
+            const struct mat3 back = mat3_transposed(&small);
+            more.turn = mat3_between(&back, &i.turn);
+            energy[side] = 0.4 * pow(feel(&more, &j, apart, 0).depth, 2.5);
+            moved[side] = 0.4 * pow(feel(&i, &j, v3_axpy(apart, by, axis), 0).depth, 2.5);
+        }
+        const double unit = v3_norm(f.force);
+        worst =
+            fmax(worst, fabs((moved[0] - moved[1]) / (2 * h) - v3_dot(f.force, axis)) / unit);
+        worst = fmax(worst,
+                     fabs((energy[0] - energy[1]) / (2 * h) - v3_dot(f.torque, axis)) / unit);
+    }
+    check(met > 50 && worst < 1e-5,
+          "%d pairs, depths from %.1e: force and torque are the gradient of the energy to %.1e",
+          met, least, worst);
+    field_body_free(b);
+}
+
 static void test_frames(void)
 {
     struct field_body *const b = body(40, 0.06);
-    double turned = 0, swapped = 0, near = 0;
-    int met = 0, several = 0;
+    double turned = 0, swapped = 0, near = 0, share = 0;
+    int met = 0;
     for (int k = 0; k < 300; k++) {
         struct field_placed i = {.body = b, .size = 1, .turn = turn()}, ti = i;
         struct field_placed j = {.body = b, .size = 0.8, .turn = turn()}, tj = j;
         const struct mat3 frame = turn(), back = mat3_transposed(&frame), way = turn();
         const vec3 apart = v3_scale(uniform(1.4, 1.9), way.row[0]);
-        struct field_touch f[8], g[8], h[8];
         ti.turn = mat3_between(&back, &i.turn);
         tj.turn = mat3_between(&back, &j.turn);
-        const int n = field_meet(&i, &j, apart, 0.2, 8, f);
-        const int m = field_meet(&ti, &tj, mat3_turn(&frame, apart), 0.2, 8, g);
-        const int o = field_meet(&j, &i, v3_scale(-1, apart), 0.2, 8, h);
-        if (n < 1)
+        const struct felt f = feel(&i, &j, apart, 0.2);
+        const struct felt g = feel(&ti, &tj, mat3_turn(&frame, apart), 0.2);
+        const struct felt h = feel(&j, &i, v3_scale(-1, apart), 0.2);
+        if (f.n < 1)
             continue;
+        const double unit = v3_norm(f.force);
         met++;
-        turned += m != n;
-        swapped += o != n;
-        if (n > 1) { /* in another order */
-            several++;
-            continue;
-        }
-        turned = fmax(turned, v3_norm(v3_sub(mat3_turn(&frame, f[0].normal), g[0].normal)) +
-                                  v3_norm(v3_sub(mat3_turn(&frame, f[0].at), g[0].at)) +
-                                  fabs(f[0].depth - g[0].depth));
-        swapped = fmax(swapped, v3_norm(v3_add(f[0].normal, h[0].normal)) +
-                                    v3_norm(v3_sub(v3_add(f[0].at, apart), h[0].at)) +
-                                    fabs(f[0].depth - h[0].depth));
-        near += f[0].depth < 0;
+        turned += g.n != f.n;
+        swapped += h.n != f.n;
+        share = fmax(share, fabs(f.share - 1));
+        turned =
+            fmax(turned, v3_norm(v3_sub(mat3_turn(&frame, f.force), g.force)) / unit +
+                             v3_norm(v3_sub(mat3_turn(&frame, f.torque), g.torque)) / unit +
+                             fabs(f.depth - g.depth));
+        /* torque about x_j, and the opposite force */
+        const vec3 about = v3_add(f.torque, v3_cross(apart, f.force));
+        swapped = fmax(swapped, v3_norm(v3_add(f.force, h.force)) / unit +
+                                    v3_norm(v3_add(about, h.torque)) / unit +
+                                    fabs(f.depth - h.depth));
+        near += f.depth < 0;
     }
-    check(met > 100 && near > 10 && several < met / 10,
-          "%d pairs meet, %g of them with a gap, %d at more than one place", met, near,
-          several);
-    check(turned < 1e-11, "turned as a whole: the same to %.1e", turned);
-    check(swapped < 1e-11, "exchanged: opposite to %.1e", swapped);
+    check(met > 100 && near > 10, "%d pairs meet, %g of them with a gap", met, near);
+    check(share < 1e-12, "their shares add up to 1 within %.1e", share);
+    check(turned < 1e-9, "turned as a whole: the same to %.1e", turned);
+    check(swapped < 1e-9, "exchanged: opposite to %.1e", swapped);
     field_body_free(b);
 }
 
@@ -221,6 +286,7 @@ int main(void)
     rng = gsl_rng_alloc(gsl_rng_mt19937);
     test_mass();
     test_pairs();
+    test_potential();
     test_frames();
     gsl_rng_free(rng);
     return check_end();
