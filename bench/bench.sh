@@ -37,6 +37,8 @@ for j in 1 $(nproc); do
     OMP_NUM_THREADS=$j GOMP_SPINCOUNT=1000 build/release/bench/fluid
 done
 bench/scaling.sh "${1:-}"
+echo
+bench/sizes.sh "${1:-}"
 bench/peers.sh "${1:-}"
 echo
 echo "Grains that are no spheres"

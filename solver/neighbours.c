@@ -14,12 +14,14 @@
 #include "sim.h"
 #include "slots.h"
 
-#define SKIN_LEAST  0.03  /* of the mean diameter: what any grain may move */
+#define SKIN_LEAST  0.03  /* of the mean diameter, what any grain may move: in a bed at rest */
+#define SKIN_FLOW   0.10  /* where others move so fast that one at rest may soon do, too */
+#define FLOW_STEPS  15.0  /* of the fastest, in between */
 #define SKIN_MOST   0.50  /* more than that by its speed */
 #define SKIN_STEPS  60.0  /* that a skin should last */
 #define INNER_STEPS 8.0   /* that the thin part of it should last */
 #define INNER_LEAST 0.001 /* of the mean diameter: a bed at rest may wake up */
-#define INNER_MOST  0.02
+#define INNER_MOST  0.10
 
 void neighbours_check(const struct sim *s, struct scene *scene)
 {
@@ -107,15 +109,18 @@ static void choose_skins(struct sim *s)
     const struct grains *const g = &s->grains;
     const bool turns = shape.path->turns && shape.path->turns(s);
     const double mean = g->n > 0 ? 2.0 * sum_blocks(g->radius, (size_t)g->n) / g->n : 0.0;
-    const double least = SKIN_LEAST * mean, most = SKIN_MOST * mean;
+    const double most = SKIN_MOST * mean;
     double farthest = 0.0;
     nb->drift = mean_velocity(s);
 #pragma omp parallel for schedule(static) reduction(max : farthest)
+    for (int i = 0; i < g->n; i++)
+        farthest = fmax(farthest, g->inv_mass[i] != 0.0 ? way_of(s, i, turns) : 0.0);
+    const double least = fmin(fmax(FLOW_STEPS * farthest, SKIN_LEAST * mean), SKIN_FLOW * mean);
+#pragma omp parallel for schedule(static)
     for (int i = 0; i < g->n; i++) {
         const bool moves = g->inv_mass[i] != 0.0;
         const double way = moves ? way_of(s, i, turns) : 0.0;
         const double skin = moves ? least + fmin(SKIN_STEPS * way, most) : 0.0;
-        farthest = fmax(farthest, way);
         nb->skin[i] = (float)skin;
         nb->pace[i] = moves ? (float)(1.00001 / (skin * skin)) : 0.0F;
     }

@@ -9,6 +9,8 @@
 #define SLOW 0.1 /* skin over radius: to one class, to the next */
 #define FAST 0.3
 
+enum { FEW = 2, ONE_CELL = 32 }; /* grains: so many slow ones for a fast one; need no cells */
+
 static int halvings(const struct search *c, float radius)
 {
     int k = 0;
@@ -38,6 +40,7 @@ static void open_classes(struct search *c, const struct sim *s, const float *ski
     const struct grains *const g = &s->grains;
     double widest[SEARCH_CLASSES] = {0.0};
     int count[SEARCH_CLASSES] = {0};
+    bool merged[SEARCH_CLASSES] = {false};
     for (int i = 0; i < g->n; i++)
         c->largest = fmax(c->largest, (double)(float)g->radius[i]);
     for (int i = 0; i < g->n; i++) {
@@ -46,25 +49,34 @@ static void open_classes(struct search *c, const struct sim *s, const float *ski
         widest[k] = fmax(widest[k], (double)reach_of(s, i, (double)skin[i], gap));
     }
     for (int k = 0; k < SEARCH_CLASSES; k++) {
+        /* a class of its own for those that are fast pays where they are few */
+        if (k % SEARCH_SPEEDS < SEARCH_SPEEDS - 1 && count[k] < FEW * count[k + 1]) {
+            count[k + 1] += count[k];
+            widest[k + 1] = fmax(widest[k + 1], widest[k]);
+            count[k] = 0;
+            merged[k] = true;
+        }
         if (count[k] == 0)
             continue;
-        c->class_of[k] = c->classes;
+        for (int m = k; m >= 0 && (m == k || merged[m]); m--)
+            c->class_of[m] = c->classes;
         c->class[c->classes++] = (struct search_class){
             .size = k / SEARCH_SPEEDS, .widest = widest[k], .n_grains = count[k]};
     }
 }
 
-/* Cells no narrower than the widest pair, and not many more of them than grains. */
+/* Cells no narrower than the widest pair, and not more of them than twice the grains. */
 static void open_cells(struct search *c, const struct sim *s)
 {
     const double *const size = s->domain.size;
     for (int k = 0; k < c->classes; k++) {
         struct search_class *const l = &c->class[k];
-        const double room = size[0] * size[1] * size[2] / (4.0 * l->n_grains + 64.0);
-        const double edge = fmax(2.0 * l->widest, cbrt(room));
+        const double room = size[0] * size[1] * size[2] / (2.0 * l->n_grains);
+        const double edge =
+            l->n_grains <= ONE_CELL ? (double)INFINITY : fmax(2.0 * l->widest, cbrt(room));
         for (int a = 0; a < 3; a++) {
             l->n[a] = (int)fmin(fmax(1.0, floor(size[a] / edge)), 1000.0);
-            l->edge[a] = size[a] / l->n[a];
+            l->per_metre[a] = l->n[a] / size[a];
         }
         l->first = c->cells;
         c->cells += l->n[0] * l->n[1] * l->n[2];
@@ -74,7 +86,8 @@ static void open_cells(struct search *c, const struct sim *s)
 /* The cell of a place along an axis; what lies outside is in the last one. */
 static int step_to(const struct search_class *l, double x, int a)
 {
-    return (int)fmin(fmax(0.0, floor(x / l->edge[a])), l->n[a] - 1.0);
+    const double at = x * l->per_metre[a];
+    return at < l->n[a] ? at > 0.0 ? (int)at : 0 : l->n[a] - 1;
 }
 
 static int home_of(const struct search *c, const struct sim *s, const float *skin, int i)
@@ -164,6 +177,12 @@ void search_free(struct search *c)
         xfree(all[k]);
 }
 
+static int step_down(double x)
+{
+    const double at = floor(x);
+    return at < 1e6 ? at > -1e6 ? (int)at : -1000000 : 1000000;
+}
+
 /* Cells in a row along an axis: from lo[k] to hi[k], in one piece or two. */
 struct spans {
     int n, lo[2], hi[2];
@@ -173,8 +192,10 @@ static struct spans spans_around(const struct search_class *l, const struct doma
                                  double reach, int a)
 {
     const int n = l->n[a];
-    const int lo = (int)fmin(fmax(floor((x - reach) / l->edge[a]), -1e6), 1e6);
-    const int hi = (int)fmin(fmax(floor((x + reach) / l->edge[a]), -1e6), 1e6);
+    if (n == 1)
+        return (struct spans){1, {0}, {0}};
+    const int lo = step_down((x - reach) * l->per_metre[a]);
+    const int hi = step_down((x + reach) * l->per_metre[a]);
     if (!d->periodic[a])
         return (struct spans){1,
                               {lo < 0   ? 0
@@ -277,6 +298,8 @@ int search_pairs(const struct search *c, const struct sim *s, int i, int **out, 
                             const int row = l->first + l->n[0] * (ky + l->n[1] * kz);
                             const int from = c->begin[row + span[0].lo[r]];
                             const int to = c->begin[row + span[0].hi[r] + 1];
+                            if (from == to)
+                                continue;
                             if (n + to - from + 1 > *room) {
                                 const int more = 2 * (n + to - from) + 1024;
                                 *out =

@@ -19,9 +19,9 @@ struct search_class {
     int size;      /* halvings of the largest radius */
     double widest; /* m, the largest reach */
     int n_grains;
-    int n[3];       /* cells */
-    double edge[3]; /* m */
-    int first;      /* its first cell among those of all classes */
+    int n[3];            /* cells */
+    double per_metre[3]; /* 1/m, of them */
+    int first;           /* its first cell among those of all classes */
 };
 
 /* Grains by class and cell; those of a cell in the order of their places in memory. */

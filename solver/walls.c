@@ -219,8 +219,18 @@ int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4])
     return n;
 }
 
+/* Whether the bounds of a wall, which has no inside to be caught in, are out of reach. */
+static bool far_from(const struct wall *w, vec3 x, double reach)
+{
+    return !w->kind->behind &&
+           (x.x < w->low.x - reach || x.x > w->high.x + reach || x.y < w->low.y - reach ||
+            x.y > w->high.y + reach || x.z < w->low.z - reach || x.z > w->high.z + reach);
+}
+
 static void near_of_wall(const struct wall *w, vec3 x, double reach, struct found *out)
 {
+    if (far_from(w, x, reach))
+        return;
     if (w->kind->near) {
         w->kind->near(w->shape, x, reach, out);
         return;
@@ -247,6 +257,15 @@ static void drop_repeated(struct found *f, int from, int old)
     f->n = n;
 }
 
+/* Whether all images of a point along an axis are the same to a wall: a plane across another axis. */
+static bool same_along(const struct wall *w, int a)
+{
+    const double low[3] = {w->low.x, w->low.y, w->low.z};
+    const double high[3] = {w->high.x, w->high.y, w->high.z};
+    const bool flat = low[0] == high[0] || low[1] == high[1] || low[2] == high[2];
+    return flat && low[a] == -(double)INFINITY && !w->pose.turned;
+}
+
 /* All images of a point that may be near the wall: those beside it along periodic directions. */
 static void near_of_images(const struct sim *s, const struct wall *w, vec3 x, double reach,
                            struct found *out)
@@ -254,7 +273,7 @@ static void near_of_images(const struct sim *s, const struct wall *w, vec3 x, do
     const int from = out->n;
     int most[3];
     for (int a = 0; a < 3; a++)
-        most[a] = s->domain.periodic[a] ? 1 : 0;
+        most[a] = s->domain.periodic[a] && !same_along(w, a) ? 1 : 0;
     const vec3 pivot = w->motion.pivot;
     vec3 middle = w->middle;
     if (w->pose.turned)
