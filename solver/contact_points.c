@@ -43,41 +43,6 @@ struct shape_pose points_pose(const struct sim *s, int i)
                                .turn = quat_matrix(g->orientation[i])};
 }
 
-int points_enter(const struct sim *s, struct block *b, const struct point_of *o)
-{
-    const struct shape_point *const p = o->p;
-    const struct body *const body = &s->bodies[o->i];
-    const int c = b->n++;
-    struct touch *const t = &b->t;
-    struct levers *const l = &b->l;
-    b->slot[c] = o->slot;
-    b->c.i[c] = o->i;
-    b->c.j[c] = o->j;
-    b->memory[c] = o->record + RECORD_HEAD;
-    b->was[c] = o->was;
-    b->scale[c] = (real)p->scale;
-    b->share[c] = p->share > 0.0 ? (real)p->share : (real)1.0;
-    b->slope[c] = p->slope > 0.0 ? (real)p->slope : (real)1.0;
-    b->lever[c] = p->lever;
-    b->rocks = b->rocks || v3_dot(p->lever, p->lever) > 0.0;
-    t->depth[c] = (real)p->depth;
-    t->nx[c] = (real)p->normal.x;
-    t->ny[c] = (real)p->normal.y;
-    t->nz[c] = (real)p->normal.z;
-    t->r_i[c] = (real)p->r_i;
-    t->r_j[c] = (real)p->r_j;
-    l->ix[c] = (real)p->at_i.x;
-    l->iy[c] = (real)p->at_i.y;
-    l->iz[c] = (real)p->at_i.z;
-    l->jx[c] = (real)p->at_j.x;
-    l->jy[c] = (real)p->at_j.y;
-    l->jz[c] = (real)p->at_j.z;
-    b->px[c] = body->spin[0];
-    b->py[c] = body->spin[1];
-    b->pz[c] = body->spin[2];
-    return c;
-}
-
 /* Velocities of i less those of j, at the half step and at the full one. */
 static void enter_pair(const struct sim *s, struct block *b, const struct point_of *o)
 {
@@ -100,91 +65,6 @@ static void enter_pair(const struct sim *s, struct block *b, const struct point_
     b->t.pair[c] = (int)i->full[3] * g->n_materials + (int)j->full[3];
 }
 
-/* Lanes without a contact of their own repeat the last one. */
-static void pad(struct block *b)
-{
-    struct touch *const t = &b->t;
-    const int last = b->n - 1;
-    int n = b->n;
-    for (; n % TOUCH_LANES != 0; n++) {
-        real *const array[] = {t->depth, t->nx,    t->ny,    t->nz,    t->r_i,  t->r_j,
-                               b->curve, b->inv_m, t->vx,    t->vy,    t->vz,   b->vx,
-                               b->vy,    b->vz,    b->px,    b->py,    b->pz,   b->qx,
-                               b->qy,    b->qz,    b->l.ix,  b->l.iy,  b->l.iz, b->l.jx,
-                               b->l.jy,  b->l.jz,  b->scale, b->share, b->slope};
-        for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
-            array[k][n] = array[k][last];
-        b->slot[n] = b->slot[last];
-        b->c.i[n] = b->c.i[last];
-        b->c.j[n] = b->c.j[last];
-        b->c.wall[n] = b->c.wall[last];
-        b->memory[n] = b->memory[last];
-        b->was[n] = b->was[last];
-        t->pair[n] = t->pair[last];
-    }
-    b->c.n = t->n = n;
-}
-
-/* Where j is flat. */
-static void reduce_flat(struct block *b)
-{
-    struct touch *const t = &b->t;
-    for (int c = 0; c < t->n; c++)
-        if (t->r_j[c] == (real)0.0) {
-            t->m_eff[c] = 1.0 / b->inv_m[c];
-            t->r_eff[c] = t->r_i[c] / (1.0 + (b->walls ? b->curve[c] * t->r_i[c] : 0.0));
-        }
-}
-
-static void starts(struct block *b)
-{
-    struct touch *const t = &b->t;
-    for (int c = 0; c < t->n; c++)
-        t->start[c] = !b->was[c] && t->depth[c] > (real)0.0 ? laws_first_part(t, c) : (real)1.0;
-}
-
-static void load_memory(struct block *b, int law_rows)
-{
-    for (int c = 0; c < b->t.n; c++)
-        for (int k = 0; k < law_rows; k++)
-            b->history[k][c] = b->memory[c][k];
-}
-
-static void keep(struct block *b, int law_rows)
-{
-    for (int c = 0; c < b->n; c++)
-        for (int k = 0; k < law_rows; k++)
-            b->memory[c][k] = b->history[k][c];
-}
-
-/* Points that share one stiffness take their parts of what the laws give for the whole. */
-static void share_out(struct block *b)
-{
-    struct touch *const t = &b->t;
-    for (int c = 0; c < t->n; c++) {
-        const real part = b->share[c] * b->slope[c];
-        t->fx[c] *= part;
-        t->fy[c] *= part;
-        t->fz[c] *= part;
-        t->mx[c] *= part;
-        t->my[c] *= part;
-        t->mz[c] *= part;
-    }
-}
-
-static void guard(const struct block *b, real most, struct report *r)
-{
-    for (int c = 0; c < b->n; c++)
-        if (b->t.depth[c] > most * b->scale[c]) {
-            r->too_deep = true;
-            r->i = b->c.i[c];
-            r->j = b->walls ? -1 - b->wall[c] : b->c.j[c];
-            r->deep = (double)b->t.depth[c];
-            r->allowed = (double)(most * b->scale[c]);
-        }
-    r->too_deep = r->too_deep || r->points > 0;
-}
-
 /* Tells of the first run that has something to tell. */
 void points_stop(const struct sim *s)
 {
@@ -200,102 +80,6 @@ void points_stop(const struct sim *s)
             contact_die(s, r->i, r->j,
                         xprintf("%.3g m, where %.3g m are allowed,", r->deep, r->allowed));
     }
-}
-
-/* Room in a slot for the contacts that someone looks at. */
-struct kept {
-    int n;
-    struct seen seen[];
-};
-
-size_t points_seen_size(const struct sim *s)
-{
-    return sizeof(struct kept) + (size_t)points_cut(s).most * sizeof(struct seen);
-}
-
-static struct kept *kept_of(const struct sim *s, bool walls, int slot)
-{
-    return (struct kept *)((char *)s->contacts->seen[walls] +
-                           (size_t)slot * points_seen_size(s));
-}
-
-void points_forget_seen(const struct sim *s, bool walls, int slot)
-{
-    if (s->contacts->watched)
-        kept_of(s, walls, slot)->n = 0;
-}
-
-void points_note_seen(const struct sim *s, const struct block *b, int c, struct report *r)
-{
-    const struct touch *const t = &b->t;
-    const struct levers *const l = &b->l;
-    struct kept *const kept = kept_of(s, b->walls, b->slot[c]);
-    const double4 f = laws_force(b, c);
-    const int i = b->c.i[c];
-    if (kept->n == points_cut(s).most) {
-        r->points = kept->n + 1;
-        return;
-    }
-    struct seen *const v = &kept->seen[kept->n++];
-    const vec3 arm_i = v3((double)l->ix[c], (double)l->iy[c], (double)l->iz[c]);
-    const vec3 arm_j = v3((double)l->jx[c], (double)l->jy[c], (double)l->jz[c]);
-    v->i = i;
-    v->j = b->walls ? -1 : b->c.j[c];
-    v->wall = b->walls ? b->wall[c] : -1;
-    v->point = v3_add(s->grains.pos[i], arm_i);
-    v->branch = b->walls ? v3_scale(-1.0, arm_i) : v3_sub(arm_j, arm_i);
-    v->normal = v3((double)t->nx[c], (double)t->ny[c], (double)t->nz[c]);
-    v->force = v3(f[0], f[1], f[2]);
-    v->normal_force = v3_dot(v->force, v->normal);
-    v->depth = (double)t->depth[c];
-}
-
-static void report_all(const struct sim *s, struct block *b, struct report *r)
-{
-    r->energy += laws_energy(b, s->neighbours.reach, b->share);
-    for (int c = 0; c < b->n; c++) {
-        const double depth = (double)b->t.depth[c];
-        r->touching += depth > 0.0;
-        r->overlap = fmax(r->overlap, depth / (double)b->scale[c]);
-        if (s->contacts->watched)
-            points_note_seen(s, b, c, r);
-    }
-}
-
-void points_work(struct sim *s, struct block *b, const struct target *to)
-{
-    struct slots *const l = b->walls ? &s->neighbours.walls : &s->neighbours.pairs;
-    const int law_rows = laws_rows();
-    if (b->n == 0)
-        return;
-    pad(b);
-    laws_reduce(b);
-    reduce_flat(b);
-    b->t.dt = s->run.dt;
-    b->t.time = to->time;
-    laws_velocities(b);
-    starts(b);
-    load_memory(b, law_rows);
-    laws_apply(s, b);
-    if (b->rocks)
-        points_rock(s, b);
-    share_out(b);
-    laws_note_broken(s, b, l, to->time);
-    keep(b, law_rows);
-    laws_pack(b);
-    if (b->rocks)
-        points_add_rocking(b);
-    guard(b, (real)s->run.overlap_max, to->report);
-    if (to->asked)
-        report_all(s, b, to->report);
-    if (b->walls)
-        laws_add_walls(b, to);
-    else
-        laws_add(b, s->neighbours.to, to);
-    if (!b->walls && s->grains.n_frozen > 0)
-        laws_add_skeleton(&s->grains, b, to->report);
-    b->n = 0;
-    b->rocks = false;
 }
 
 /* Finds the memory of a slot's points and enters them. */
@@ -459,37 +243,10 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
             enter_points(s, b, &cut, slot[k], &pair, p, n, to);
         head[HEAD_APART] = n == 0 && far > pair.reach ? (real)(far - pair.reach) : (real)0.0;
         if (!l->live[slot[k]])
-            l->live[slot[k]] =
-                LIVE_REACH; /* so that the head is kept or cleared with the slot */
+            l->live[slot[k]] = LIVE_REACH; /* the head is kept or cleared with the slot */
     }
     points_work(s, b, to);
     to->report->too_deep = to->report->too_deep || to->report->points > 0;
-}
-
-static size_t view_list(const struct sim *s, bool walls, struct seen *out)
-{
-    const struct slots *const l = walls ? &s->neighbours.walls : &s->neighbours.pairs;
-    size_t n = 0;
-    for (size_t slot = 0; slot < l->n; slot++) {
-        if (!l->live[slot])
-            continue;
-        const struct kept *const kept = kept_of(s, walls, (int)slot);
-        for (int k = 0; k < kept->n && out; k++)
-            out[n + (size_t)k] = kept->seen[k];
-        n += (size_t)kept->n;
-    }
-    return n;
-}
-
-void points_view(const struct sim *s, struct contact_view *v)
-{
-    v->n = 0;
-    if (s->neighbours.builds == 0)
-        return;
-    const size_t pairs = view_list(s, false, NULL);
-    contact_view_reserve(v, pairs + view_list(s, true, NULL));
-    view_list(s, false, v->seen);
-    view_list(s, true, v->seen + pairs);
 }
 
 const struct contact_path contact_points = {.rows = points_rows,

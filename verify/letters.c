@@ -1,29 +1,22 @@
 /* verify/letters.c - the six letters of [LiLiuJi23, figs 10 to 12], and places for them to fall from.
  *
- * A letter is 100 wide, 30 thick and 180 high in mm, edges and all, of strokes as wide as asked. Its
- * strokes are quadrilaterals in the plane y, z; pushed in by the dilation r they are the cores, and
- * volume and centre come from the plane: at a distance d outside of the cores the letter is
- * 30 - 2 r + 2 sqrt(r^2 - d^2) thick, summed over squares of half a millimetre.
- *
- * Places are random with random turns, so that the boxes about the letters (100 x 30 x 180 mm) do
- * not overlap: random sequential addition, by the separating axes of two boxes [GottschalkLinManocha96].
+ * The core of a letter is 100 wide, 30 thick and 180 high in mm, of strokes as wide as asked, and dilated
+ * by r. Strokes are quadrilaterals in the plane y, z; those of the whole letter pushed in by r
+ * are the cores, and volume and centre come from the plane: at a distance d outside of the cores
+ * the letter is 30 + 2 sqrt(r^2 - d^2) thick, summed over squares of half a millimetre.
  *
  * letters FOLDER LETTER STROKE DILATION COUNT SEED BASE HEIGHT (mm): FOLDER/LETTER.obj, a part a stroke;
  * FOLDER/LETTER.places for fill = file; prints the volume-equivalent diameter, mm, and, of as many
  * letters in the space, the solid fraction. */
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include "../solver/base.h"
-#include "../solver/rotation.h"
+#include "random_boxes.h"
 
 #define PI   3.14159265358979323846
 #define FINE 0.5 /* mm */
 
-enum { STROKES_MOST = 4, NEAR_MOST = 27, TRIES = 100000 };
+enum { STROKES_MOST = 4 };
 
 /* Corners y, z in order: bottom left, bottom right, top right, top left. */
 struct stroke {
@@ -152,123 +145,6 @@ static void write_obj(const struct letter *l, FILE *f)
     }
 }
 
-/* A box about a letter at `x`, the centre of mass. */
-struct box {
-    vec3 x, middle;
-    struct quat q;
-    vec3 axis[3];
-};
-
-static double half[3];
-
-static double spread(const struct box *b, vec3 n)
-{
-    double s = 0.0;
-    for (int a = 0; a < 3; a++)
-        s += half[a] * fabs(v3_dot(b->axis[a], n));
-    return s;
-}
-
-static bool parts(const struct box *a, const struct box *b, vec3 n)
-{
-    return fabs(v3_dot(v3_sub(a->middle, b->middle), n)) > spread(a, n) + spread(b, n);
-}
-
-static bool overlap(const struct box *a, const struct box *b)
-{
-    for (int k = 0; k < 3; k++)
-        if (parts(a, b, a->axis[k]) || parts(a, b, b->axis[k]))
-            return false;
-    for (int k = 0; k < 9; k++) {
-        const vec3 n = v3_cross(a->axis[k / 3], b->axis[k % 3]);
-        if (v3_dot(n, n) > 1e-12 && parts(a, b, n))
-            return false;
-    }
-    return true;
-}
-
-/* Cells as wide as a letter is long, each with a list of boxes. */
-struct cells {
-    int n[3], *first, *next;
-    double edge;
-};
-
-static int cell_of(const struct cells *c, vec3 x, int dx, int dy, int dz)
-{
-    const int i = (int)(x.x / c->edge) + dx, j = (int)(x.y / c->edge) + dy,
-              k = (int)(x.z / c->edge) + dz;
-    return i < 0 || j < 0 || k < 0 || i >= c->n[0] || j >= c->n[1] || k >= c->n[2]
-               ? -1
-               : (k * c->n[1] + j) * c->n[0] + i;
-}
-
-static bool room(const struct cells *c, const struct box *all, const struct box *b)
-{
-    for (int k = 0; k < NEAR_MOST; k++) {
-        const int cell = cell_of(c, b->middle, k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-        for (int m = cell < 0 ? -1 : c->first[cell]; m >= 0; m = c->next[m])
-            if (overlap(b, &all[m]))
-                return false;
-    }
-    return true;
-}
-
-static struct box draw(gsl_rng *rng, const struct letter *l, double base, double height)
-{
-    double q[4];
-    gsl_ran_dir_nd(rng, 4, q);
-    struct box b = {.q = {q[0], q[1], q[2], q[3]}};
-    const struct mat3 turn = quat_matrix(b.q);
-    const vec3 to_middle = mat3_turn(&turn, v3(0.0, -l->y, -l->z));
-    for (int a = 0; a < 3; a++)
-        b.axis[a] = mat3_turn(&turn, v3(a == 0, a == 1, a == 2));
-    const double wx = spread(&b, v3(1, 0, 0)), wy = spread(&b, v3(0, 1, 0)),
-                 wz = spread(&b, v3(0, 0, 1));
-    b.middle = v3(gsl_ran_flat(rng, wx, base - wx), gsl_ran_flat(rng, wy, base - wy),
-                  gsl_ran_flat(rng, wz, height - wz));
-    b.x = v3_sub(b.middle, to_middle);
-    return b;
-}
-
-static bool place(const struct letter *l, int count, unsigned long seed, double base,
-                  double height, FILE *f)
-{
-    const double d = cbrt(6.0 / PI * l->volume);
-    struct cells c;
-    struct box *const all = xalloc((size_t)count + 1, sizeof *all);
-    gsl_rng *const rng = gsl_rng_alloc(gsl_rng_mt19937);
-    gsl_rng_set(rng, seed);
-    half[0] = 0.5 * l->thick;
-    half[1] = 0.5 * l->wide;
-    half[2] = 0.5 * l->high;
-    c.edge = 2.0 * sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-    c.n[0] = c.n[1] = (int)(base / c.edge) + 1;
-    c.n[2] = (int)(height / c.edge) + 1;
-    const int n_cells = c.n[0] * c.n[1] * c.n[2];
-    c.first = xalloc((size_t)n_cells, sizeof *c.first);
-    c.next = xalloc((size_t)count + 1, sizeof *c.next);
-    for (int k = 0; k < n_cells; k++)
-        c.first[k] = -1;
-    int n = 0;
-    for (long t = 0; n < count && t < TRIES; t++) {
-        all[n] = draw(rng, l, base, height);
-        if (!room(&c, all, &all[n]))
-            continue;
-        const int cell = cell_of(&c, all[n].middle, 0, 0, 0);
-        const struct box *const b = &all[n];
-        fprintf(f, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", 1e-3 * b->x.x, 1e-3 * b->x.y,
-                1e-3 * b->x.z, 1e-3 * d, b->q.w, b->q.x, b->q.y, b->q.z);
-        c.next[n] = c.first[cell];
-        c.first[cell] = n++;
-        t = 0;
-    }
-    gsl_rng_free(rng);
-    xfree(c.first);
-    xfree(c.next);
-    xfree(all);
-    return n == count;
-}
-
 int main(int argc, char **argv)
 {
     struct letter l;
@@ -283,13 +159,19 @@ int main(int argc, char **argv)
     write_obj(&l, f);
     fclose(f);
     f = open_in(argv[1], argv[2][0], "places");
-    const bool all = place(&l, count, strtoul(argv[6], NULL, 10), base, height, f);
+    const struct box_kind about = {.half = {0.5 * l.thick, 0.5 * l.wide, 0.5 * l.high},
+                                   .offset = {0.0, -l.y, -l.z},
+                                   .base = base,
+                                   .height = height};
+    const double d = cbrt(6.0 / PI * l.volume); /* mm */
+    const bool all = boxes_place(&about, count, strtoul(argv[6], NULL, 10), v3(0.0, 0.0, 0.0),
+                                 1e-3, 1e-3 * d, f);
     fclose(f);
     if (!all) {
         fprintf(stderr, "%d letters find no room in %g x %g x %g mm\n", count, base, base,
                 height);
         return 2;
     }
-    printf("%.4f %.4f\n", cbrt(6.0 / PI * l.volume), count * l.volume / (base * base * height));
+    printf("%.4f %.4f\n", d, count * l.volume / (base * base * height));
     return 0;
 }
