@@ -8,6 +8,7 @@ enum { ROUNDS = 100, LANES = POLYHEDRON_LANES };
 #define STEP  0.5   /* the normal turns by no more at once */
 #define FLAT  1e-13 /* of the size: a gain in height that round-off hides */
 #define TIGHT 1e-10 /* of the size: feet on one line; the gap is of second order in that */
+#define LAST  3e-9  /* after a turn by less, what the slopes promise is so to 1e-13 of the size */
 
 /* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, with log 2 in two parts [CodyWaite80], Taylor's
  * series of f, in the order of Estrin, for short chains. Ours, as libm's works one number at a time,
@@ -223,6 +224,12 @@ static vec3 turn_by(const struct flat *t, double h, vec3 g, vec3 line, vec3 e1, 
     return size > STEP ? v3_scale(STEP / size, q) : q;
 }
 
+/* Moves the point of a top as its normal turns by q. */
+static void follow(struct crown_top *t, double sharp, vec3 q)
+{
+    t->at = v3_axpy(t->at, sharp, times(t, q));
+}
+
 static vec3 turned(vec3 m, double part, vec3 q)
 {
     const vec3 to = v3_axpy(m, part, q);
@@ -275,6 +282,12 @@ bool crown_find_gap(const struct crown *a, const struct crown *b, vec3 line, dou
         q = turn_by(&t, h, g, line, out->e1, out->e2);
         gain = v3_dot(q, g);
         m = turned(base, 1.0, q);
+        if (v3_dot(q, q) < LAST * LAST) {
+            follow(&ta, ba, v3_scale(-1.0, q));
+            follow(&tb, bb, q);
+            out->gap += 0.5 * gain;
+            break;
+        }
     }
     basis(m, out);
     va = across(&ta, out->e1, out->e2);
