@@ -8,8 +8,7 @@
 # Ours: edges of 6 cm (2 cm there) at 0.2 GPa (10 there), for steps ten times as long: overlaps must stay below the edges'.
 #
 # Rate: between the times when a fifth and 7 tenths of those that leave have left; its spread that of four parts of that
-# time. Angle: the program's own ([surface], kind = heap), the mean over four quarters of the heap, and their
-# standard deviation. A shape that is there from an earlier call with the same settings is taken as it is.
+# time. Angle: the program's own ([surface], kind = heap); its spread that of the four quarters of the heap. A shape that is there from an earlier call with the same settings is taken as it is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 count=${1:-$([ -n "${FULL:-}" ] && echo 4000 || echo 200)}
@@ -81,9 +80,8 @@ END
     plate y1 "$a $a $floor" "$wide 0 0" "0 0 $air"
     plate y2 "$a $d $floor" "$wide 0 0" "0 0 $air"
     plate gate "$b $b $floor" "$open 0 0" "0 $open 0"
-    printf 'velocity = %s 0 0 m/s\nstart = %s s\nstop = %s s\n' "$(awk -v o="$open" 'BEGIN { print 4 * o }')" "$gate" \
-        "$(awk -v g="$gate" 'BEGIN { print g + 0.3 }')"
-    for quarter in "sw 0 0 $m $m" "se $m 0 $box $m" "nw 0 $m $m $box" "ne $m $m $box $box"; do
+    printf 'velocity = 0 0 -40 m/s\nstart = %s s\nstop = %s s\n' "$gate" "$(awk -v g="$gate" 'BEGIN { print g + 1 }')"
+    for quarter in "sw 0 0 $m $m" "se $m 0 $box $m" "nw 0 $m $m $box" "ne $m $m $box $box" "heap 0 0 $box $box"; do
         read -r name x0 y0 x1 y1 <<< "$quarter"
         printf '[surface %s]\nkind = heap\nfrom = %s %s 0 m\nto = %s %s %s m\n' "$name" "$x0" "$y0" "$x1" "$y1" \
             "$(sub "$floor" 0.3)"
@@ -115,7 +113,9 @@ discharge() { # FORM
                 printf "%.2f %.2f ", n * last * 0.5 / (when(0.7) - when(0.2)), sqrt((q - s * s / 4) / 3 + 1e-12)
                 printf "%.3f\n", last }' "$dir.left"
         for q in sw se nw ne; do sed -n "s/^${q}_angle = \([^ ]*\).*/\1/p" "$dir/summary.txt"; done |
-            awk '{ s += $1; q += $1 * $1 } END { printf "%.2f %.2f %d\n", s / NR, sqrt((q - s * s / NR) / (NR - 1)), NR }'
+            awk -v whole="$(sed -n 's/^heap_angle = \([^ ]*\).*/\1/p' "$dir/summary.txt")" '
+                $1 == $1 + 0 { s += $1; q += $1 * $1; n++ }
+                END { printf "%.2f %.2f\n", whole, n > 1 ? sqrt((q - s * s / n) / (n - 1)) : 0 }'
         echo "# $(grep -m 1 -o '^silt [^,]*' "$dir.log"), $(sed -n 's/^wall_time = //p' "$dir/summary.txt")"
     } > "$dir.part"
     mv "$dir.part" "$dir.txt"
@@ -132,7 +132,7 @@ printf '%-11s %9s %6s %9s %7s %6s %9s\n' shape grains/s +- m3/s degrees +- "left
 declare -A rate angle spread
 for f in $shapes; do
     discharge "$f"
-    { read -r _; read -r r dr left; read -r a da _; } < "$out/$f.txt"
+    { read -r _; read -r r dr left; read -r a da; } < "$out/$f.txt"
     printf '%-11s %9.1f %6.1f %9.2f %7.1f %6.1f %9.3f\n' "$f" "$r" "$dr" \
         "$(awk -v r="$r" -v d="$(diameter "$f")" 'BEGIN { print r * 3.14159265 / 6 * d ^ 3 }')" "$a" "$da" "$left"
     rate[$f]=$r angle[$f]=$a spread[$f]="$dr $da"

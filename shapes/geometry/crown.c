@@ -8,7 +8,7 @@ enum { ROUNDS = 100, LANES = POLYHEDRON_LANES };
 #define STEP  0.5   /* the normal turns by no more at once */
 #define FLAT  1e-13 /* of the size: a gain in height that round-off hides */
 #define TIGHT 1e-10 /* of the size: feet on one line; the gap is of second order in that */
-#define LAST  3e-9  /* after a turn by less, what the slopes promise is so to 1e-13 of the size */
+#define LAST  3e-9 /* after a turn by less, what the slopes promise is so to 1e-13 of the size */
 
 /* exp(x) for x <= 0 to 1e-15: x = k log 2 + f, with log 2 in two parts [CodyWaite80], Taylor's
  * series of f, in the order of Estrin, for short chains. Ours, as libm's works one number at a time,
