@@ -2,7 +2,8 @@
 # bench/cubes.sh [quick] - a settled bed of 1,000 cubes with rounded edges (bench/cubes.ini) and ten such beds
 # side by side, beside YADE's polyhedra and potential particles and LAMMPS' body/rounded/polyhedron on the same
 # bed, one core each: grain-steps a second, median of three runs (the peers: one). Target: 100,000, and 10,000
-# cubes no slower a grain. The bed settles once (minutes) and is kept in build/bench.
+# cubes no slower a grain. First what a pair costs that does not touch, for cubes, tetrapods, superquadrics and level
+# sets. The bed settles once (minutes) and is kept in build/bench.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
 command -v ncdump > /dev/null || ./run.sh install netcdf-bin
@@ -55,6 +56,10 @@ peer_rate() { # LOG
 
 rounds=3
 [ "$quick" = quick ] && rounds=1
+echo "pairs whose balls overlap: how they are told apart, and what it costs (bench/far_pairs.h)"
+for kind in dilated multi_dilated superquadric level_set; do
+    make -s "build/release/bench/far_$kind" && build/release/bench/far_$kind
+done
 for tiles in "1 1" "2 5"; do
     read -r nx ny <<< "$tiles"
     n=$((1000 * nx * ny))

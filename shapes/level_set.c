@@ -132,18 +132,20 @@ static int points(const struct shape_pair *p, int most, struct shape_point *out)
     if (n == 0 && p->apart)
         *p->apart = clear;
     for (int k = 0; k < n; k++)
-        out[k] = (struct shape_point){.id = touch[k].id,
-                                      .depth = touch[k].depth,
-                                      .normal = touch[k].normal,
-                                      .at_i = touch[k].at,
-                                      .at_j = v3_sub(touch[k].at, p->j.centre),
-                                      .from_i = touch[k].at,
-                                      .from_j = v3_sub(touch[k].at, p->j.centre),
-                                      .r_i = p->i.size,
-                                      .r_j = p->j.size,
-                                      .scale = fmin(bi->thin * p->i.size, bj->thin * p->j.size),
-                                      .share = touch[k].share,
-                                      .slope = touch[k].slope};
+        out[k] =
+            (struct shape_point){.id = touch[k].id,
+                                 .depth = touch[k].depth,
+                                 .normal = touch[k].normal,
+                                 .at_i = touch[k].at,
+                                 .at_j = v3_sub(touch[k].at, p->j.centre),
+                                 .from_i = touch[k].at,
+                                 .from_j = v3_sub(touch[k].at, p->j.centre),
+                                 .r_i = p->i.size,
+                                 .r_j = p->j.size,
+                                 .scale = fmin(bi->thin * p->i.size, bj->thin * p->j.size) *
+                                          (touch[k].depth / touch[k].deepest),
+                                 .share = touch[k].share,
+                                 .slope = touch[k].slope};
     return n;
 }
 

@@ -55,11 +55,12 @@ struct field_placed {
 /* Where two bodies overlap: points, each of which takes part in the pair's one depth (field_pair.c). */
 struct field_touch {
     int id;
-    double depth; /* m, of the pair: the same for all points */
-    vec3 normal;  /* unit, from j to i */
-    vec3 at;      /* m, from x_i, midway in the overlap */
-    double share; /* of the pair's energy; those of all points add up to 1 */
-    double slope; /* -d(depth)/d(x_i along the normal), of this point, over its share */
+    double depth;   /* m, of the pair: the same for all points */
+    double deepest; /* m, of its nodes */
+    vec3 normal;    /* unit, from j to i */
+    vec3 at;        /* m, from x_i, midway in the overlap */
+    double share;   /* of the pair's energy; those of all points add up to 1 */
+    double slope;   /* -d(depth)/d(x_i along the normal), of this point, over its share */
 };
 
 /* Up to `most` of them, 4 or more, in a fixed order; returns how many. If none overlaps but a node

@@ -47,8 +47,9 @@ struct samples {
 
 /* Sums over the nodes of a patch. */
 struct patch {
-    int n, first;                  /* nodes; the least of their numbers */
-    double energy;                 /* sum of w d^4 */
+    int n, first;  /* nodes; the least of their numbers */
+    double energy; /* sum of w d^4 */
+    double deepest;
     double weight;                 /* of w d^3 = c */
     vec3 force;                    /* of c slope */
     vec3 torque;                   /* of c at x slope, about x_i */
@@ -82,6 +83,7 @@ static void add(struct patch *p, const struct sample *s)
     p->first = p->n == 0 || s->node < p->first ? s->node : p->first;
     p->n++;
     p->energy += c * s->depth;
+    p->deepest = fmax(p->deepest, s->depth);
     p->weight += c;
     p->force = v3_axpy(p->force, c, s->slope);
     p->torque = v3_axpy(p->torque, c, v3_cross(x, s->slope));
@@ -197,20 +199,20 @@ static void spread(const struct patch *p, vec3 middle, vec3 normal, vec3 lever[2
     lever[1] = v3_add(v3_scale(c12 * by, e1), v3_scale((c22 + det) * by, e2));
 }
 
-/* The pair's depth from the sum of w d^4 of all patches, and (S/D) dD/dS. */
+/* The pair's depth from the sum of w d^4 of all patches, (S/D) dD/dS, and the deepest node. */
 struct onset {
-    double depth, power;
+    double depth, power, deepest;
 };
 
 static struct onset onset(const struct field_placed *i, const struct field_placed *j,
-                          double sum)
+                          double sum, double deepest)
 {
     const double r = i->size * j->size / (i->size + j->size);
     const double spacing = fmax(i->size * i->body->spacing, j->size * j->body->spacing);
     const double hidden = spacing * spacing / (8.0 * r), square = hidden * hidden;
     const double least = spacing * spacing * square * square, part = sum / (sum + least);
     const double depth = pow(1.25 * sum / (3.14159265358979323846 * r), 0.2);
-    return (struct onset){depth * pow(part, 0.1), 0.2 + 0.1 * (1.0 - part)};
+    return (struct onset){depth * pow(part, 0.1), 0.2 + 0.1 * (1.0 - part), deepest};
 }
 
 /* The points of a patch: 1 or 4. `all`: the sum of w d^4 of all patches. */
@@ -224,7 +226,8 @@ static int represent(const struct patch *p, double all, const struct onset *o, i
     const double depth = o->depth,
                  slope = fmax(4.0 * o->power * depth / all * pull / share, 1e-12);
     vec3 lever[2], at = middle;
-    *out = (struct field_touch){.id = id, .depth = depth, .share = share, .slope = slope};
+    *out = (struct field_touch){
+        .id = id, .depth = depth, .deepest = o->deepest, .share = share, .slope = slope};
     out->normal = pull > 0.0 ? v3_scale(1.0 / pull, p->force) : v3(0.0, 0.0, 1.0);
     out->at = middle;
     if (p->n < 2 || !(pull > 0.0))
@@ -247,6 +250,7 @@ static int represent(const struct patch *p, double all, const struct onset *o, i
         const double longer = v3_norm(way);
         out[k] = (struct field_touch){.id = id + k,
                                       .depth = depth,
+                                      .deepest = o->deepest,
                                       .normal = v3_scale(1.0 / longer, way),
                                       .at = v3_add(at, arm),
                                       .share = 0.25 * share,
@@ -260,6 +264,7 @@ static int lone(const struct sample *s, struct field_touch *out)
     const double steep = v3_norm(s->slope);
     *out = (struct field_touch){.id = 0,
                                 .depth = s->depth,
+                                .deepest = s->depth,
                                 .normal = v3_scale(1.0 / steep, s->slope),
                                 .at = s->at,
                                 .share = 1.0,
@@ -274,7 +279,7 @@ int field_meet(const struct field_placed *i, const struct field_placed *j, vec3 
     struct patch patch[PATCHES], rest = {.n = 0};
     const vec3 other = v3_scale(-1.0, apart);
     const int room = most / CORNERS < PATCHES ? most / CORNERS : PATCHES;
-    double energy = 0.0;
+    double energy = 0.0, deepest = 0.0;
     int n = 0;
     all.n = 0;
     all.nearest = reach;
@@ -290,9 +295,11 @@ int field_meet(const struct field_placed *i, const struct field_placed *j, vec3 
     }
     link(&all, LINK * fmax(i->size * i->body->spacing, j->size * j->body->spacing));
     const int patches = gather(&all, &rest, room, patch);
-    for (int k = 0; k < patches; k++)
+    for (int k = 0; k < patches; k++) {
         energy += patch[k].energy;
-    const struct onset o = onset(i, j, energy);
+        deepest = fmax(deepest, patch[k].deepest);
+    }
+    const struct onset o = onset(i, j, energy, deepest);
     for (int k = 0; k < patches; k++)
         n += represent(&patch[k], energy, &o, patches == 1 ? 0 : CORNERS * (patch[k].first + 1),
                        out + n);
