@@ -1,21 +1,25 @@
-/* bench/walls.c - what a contact with a wall costs beside one between grains: 4,900 grains that touch
- * nothing, each other in pairs, or one wall each, all at rest (a time step so short that nothing
- * moves). ns per contact: the time of a step less that without contacts, over the contacts; medians
- * of rounds in which the cases take turns. */
+/* bench/walls.c [PART] - what a contact with a wall costs beside one between grains. 4,900 grains that
+ * touch nothing, each other in pairs, or one wall each; then a layer in which each touches its four
+ * neighbours and the wall. All are at rest, with a time step so short that nothing moves. ns per
+ * contact: the time of a step less that of the same grains without the wall (without each other),
+ * over the contacts; medians of rounds in which the cases take turns. PART: only the walls whose
+ * names hold it. */
 /* slots: contact/hertz_mindlin */
 #include "../verify/harness.h"
 
-enum { SIDE = 70, GRAINS = SIDE * SIDE, ROUNDS = 11, STEPS = 200, CASES = 9 };
+enum { SIDE = 70, GRAINS = SIDE * SIDE, ROUNDS = 11, STEPS = 200, CASES = 40 };
 
 #define PI   3.14159265358979323846
-#define EDGE 1.2e-3 /* m between grains of 1 mm */
-#define DIP  1e-6   /* m, into the wall */
+#define EDGE 1.2371e-3 /* m between grains of 1 mm: no multiple of an edge of the meshes */
+#define DIP  1e-6      /* m, of grains into each other and into the wall */
 
 static char folder[] = "/tmp/silt-bench-XXXXXX";
 
 struct layout {
-    const char *name, *wall; /* its section of the scene */
+    const char *name;
+    char *wall; /* its section of the scene */
     void (*put)(int i, double *x);
+    int base; /* the case without these contacts */
     long contacts;
     double cost[ROUNDS];
     struct sim *sim;
@@ -34,6 +38,16 @@ static void pairs(int i, double *x)
     x[2] += i % 2 * (1e-3 - DIP);
 }
 
+/* Askew, so that the grains lie all over the triangles. */
+static void layer(int i, double *x)
+{
+    const double u = (1e-3 - DIP) * (i % SIDE - 0.5 * (SIDE - 1)), c = cos(0.3);
+    const double v = (1e-3 - DIP) * (i / SIDE - 0.5 * (SIDE - 1)), d = sin(0.3);
+    x[0] = 45e-3 + c * u - d * v;
+    x[1] = 45e-3 + d * u + c * v;
+    x[2] = 20.5e-3 - DIP;
+}
+
 static void low(int i, double *x)
 {
     apart(i, x);
@@ -46,32 +60,60 @@ static void bottom(int i, double *x)
     x[2] = 0.5e-3 - DIP;
 }
 
-/* Rows along y on the inside of a drum, or of a cone that is nearly one. */
-static void drum(int i, double *x)
+/* Rows along y on the inside of a drum of this radius at y = 0, wider by 1/1000 a metre. */
+static void around(int i, double radius, double wider, double *x)
 {
-    const double angle = 2.0 * PI * (i % SIDE) / SIDE, r = 44e-3 - 0.5e-3 + DIP;
+    const double angle = 2.0 * PI * (i % SIDE) / SIDE, y = 2e-3 + EDGE * (i / SIDE);
+    const double r = radius + wider * y - (0.5e-3 - DIP) * sqrt(1.0 + wider * wider);
     x[0] = 45e-3 + r * cos(angle);
     x[2] = 45e-3 + r * sin(angle);
-    x[1] = 2e-3 + EDGE * (i / SIDE);
+    x[1] = y;
 }
 
-static void write_floor(const char *path)
+static void drum(int i, double *x)
 {
+    around(i, 44e-3, 0.0, x);
+}
+
+static void cone(int i, double *x)
+{
+    around(i, 30e-3, 0.15, x);
+}
+
+static char *floor_path(double edge)
+{
+    return xprintf("%s/floor-%g.stl", folder, edge);
+}
+
+static char *write_floor(double edge)
+{
+    char *const path = floor_path(edge);
     FILE *const file = fopen(path, "w");
+    const int n = (int)(90.0 / edge + 0.5);
     if (!file)
         abort();
     fprintf(file, "solid floor\n");
-    for (int i = 0; i < 45; i++)
-        for (int j = 0; j < 45; j++) {
-            const int x = 2 * i, y = 2 * j;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double x = edge * i, y = edge * j, u = x + edge, v = y + edge;
             fprintf(file,
-                    "facet normal 0 0 1\nouter loop\nvertex %d %d 20\nvertex %d %d 20\n"
-                    "vertex %d %d 20\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
-                    "vertex %d %d 20\nvertex %d %d 20\nvertex %d %d 20\nendloop\nendfacet\n",
-                    x, y, x + 2, y, x + 2, y + 2, x, y, x + 2, y + 2, x, y + 2);
+                    "facet normal 0 0 1\nouter loop\nvertex %g %g 20\nvertex %g %g 20\n"
+                    "vertex %g %g 20\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+                    "vertex %g %g 20\nvertex %g %g 20\nvertex %g %g 20\nendloop\nendfacet\n",
+                    x, y, u, y, u, v, x, y, u, v, x, v);
         }
     fprintf(file, "endsolid floor\n");
     fclose(file);
+    return path;
+}
+
+static char *mesh(double edge, const char *more)
+{
+    char *const path = write_floor(edge);
+    char *const text =
+        xprintf("[wall w]\nkind = mesh\nfile = %s\nscale = 1 mm\n%s", path, more);
+    xfree(path);
+    return text;
 }
 
 static void open_case(struct layout *p)
@@ -111,58 +153,105 @@ static double median(double *x)
     return x[ROUNDS / 2];
 }
 
-int main(void)
+static int n_cases;
+
+static void add(struct layout *all, const char *name, int base, void (*put)(int i, double *x),
+                char *wall)
 {
+    all[n_cases++] = (struct layout){.name = name, .put = put, .base = base, .wall = wall};
+}
+
+#define FLAT  "point = 0 0 20 mm\nnormal = 0 0 1\n"
+#define PLATE "kind = rectangle\ncorner = 0 0 20 mm\nedge1 = 90 0 0 mm\nedge2 = 0 90 0 mm\n"
+#define DRUM  "point = 45 0 45 mm\naxis = 0 1 0\nside = in\n"
+#define TURN  "spin = 1 rad/s\nspin_axis = 0 1 0\nspin_point = 45 0 45 mm\n"
+#define ROUND "spin = 1 rad/s\nspin_axis = 0 0 1\nspin_point = 45 45 20 mm\n"
+#define SHAKE "direction = 0 0 1\namplitude = 1 um\nfrequency = 50 Hz\n"
+#define DISC  "kind = disc\npoint = 45 45 20 mm\nnormal = 0 0 1\nradius = 64 mm\n"
+
+static void write_cases(struct layout *all, const char *part)
+{
+    enum { APART, PAIRS, LAYER };
+    const struct {
+        const char *name;
+        void (*put)(int i, double *x);
+        char *wall;
+    } walls[] = {
+        {"side of the box", bottom, xstrdup("")},
+        {"plane", low, xstrdup("[wall w]\n" FLAT)},
+        {"plane that shakes", low, xstrdup("[wall w]\n" FLAT SHAKE)},
+        {"box", low,
+         xstrdup("[wall w]\nkind = box\nfrom = 0 0 20 mm\nto = 90 90 80 mm\nside = in\n")},
+        {"rectangle", low, xstrdup("[wall w]\n" PLATE)},
+        {"disc", low, xstrdup("[wall w]\n" DISC)},
+        {"disc that turns", low, xstrdup("[wall w]\n" DISC ROUND)},
+        {"cylinder", drum, xstrdup("[wall w]\nkind = cylinder\nradius = 44 mm\n" DRUM)},
+        {"cylinder that turns", drum,
+         xstrdup("[wall w]\nkind = cylinder\nradius = 44 mm\n" DRUM TURN)},
+        {"cone", cone,
+         xstrdup("[wall w]\nkind = cone\nradius = 30 mm\nradius_end = 43.5 mm\n"
+                 "length = 90 mm\n" DRUM)},
+        {"mesh, 90 mm wide", low, mesh(90.0, "")},
+        {"mesh, 2 mm", low, mesh(2.0, "")},
+        {"mesh, 2 mm, that turns", low, mesh(2.0, ROUND)},
+        {"mesh, 0.5 mm", low, mesh(0.5, "")},
+    };
+    add(all, "no contact", APART, apart, xstrdup(""));
+    add(all, "two grains", APART, pairs, xstrdup(""));
+    add(all, "layer of grains", APART, layer, xstrdup(""));
+    for (size_t k = 0; k < 2 * sizeof walls / sizeof *walls; k++) {
+        const size_t of = k / 2;
+        const bool bed = k % 2;
+        if (strstr(walls[of].name, part) && (!bed || walls[of].put == low))
+            add(all, walls[of].name, bed ? LAYER : APART, bed ? layer : walls[of].put,
+                xstrdup(walls[of].wall));
+    }
+    for (size_t k = 0; k < sizeof walls / sizeof *walls; k++)
+        xfree(walls[k].wall);
+}
+
+static int clear_up(void)
+{
+    const double edge[3] = {90.0, 2.0, 0.5};
+    for (int k = 0; k < 3; k++) {
+        char *const path = floor_path(edge[k]);
+        unlink(path);
+        xfree(path);
+    }
+    return rmdir(folder) != 0;
+}
+
+int main(int argc, char **argv)
+{
+    static struct layout all[CASES];
+    double time[CASES], grains[3] = {1.0, 1.0, 1.0};
     if (!mkdtemp(folder))
         return 1;
-    char *const stl = xprintf("%s/floor.stl", folder);
-    char *const mesh = xprintf("[wall w]\nkind = mesh\nfile = %s\nscale = 1 mm\n", stl);
-    write_floor(stl);
-#define DRUM "point = 45 0 45 mm\naxis = 0 1 0\nradius = 44 mm\nside = in\n"
-    struct layout place[CASES] = {
-        {.name = "no contact", .put = apart, .wall = ""},
-        {.name = "two grains", .put = pairs, .wall = ""},
-        {.name = "side of the box", .put = bottom, .wall = ""},
-        {.name = "plane", .put = low, .wall = "[wall w]\npoint = 0 0 20 mm\nnormal = 0 0 1\n"},
-        {.name = "rectangle",
-         .put = low,
-         .wall = "[wall w]\nkind = rectangle\ncorner = 0 0 20 mm\nedge1 = 90 0 0 mm\n"
-                 "edge2 = 0 90 0 mm\n"},
-        {.name = "disc",
-         .put = low,
-         .wall = "[wall w]\nkind = disc\npoint = 45 45 20 mm\nnormal = 0 0 1\n"
-                 "radius = 64 mm\n"},
-        {.name = "cylinder", .put = drum, .wall = "[wall w]\nkind = cylinder\n" DRUM},
-        {.name = "turning cylinder",
-         .put = drum,
-         .wall = "[wall w]\nkind = cylinder\nspin = 1 rad/s\nspin_axis = 0 1 0\n"
-                 "spin_point = 45 0 45 mm\n" DRUM},
-        {.name = "mesh of 4,050 triangles", .put = low, .wall = mesh},
-    };
-    for (int k = 0; k < CASES; k++)
-        open_case(&place[k]);
+    write_cases(all, argc > 1 ? argv[1] : "");
+    for (int k = 0; k < n_cases; k++)
+        open_case(&all[k]);
     for (int round = 0; round < ROUNDS; round++)
-        for (int k = 0; k < CASES; k++) {
+        for (int k = 0; k < n_cases; k++) {
             const double start = wall_clock();
-            step_grains(place[k].sim, STEPS);
-            place[k].cost[round] = (wall_clock() - start) / STEPS;
+            step_grains(all[k].sim, STEPS);
+            all[k].cost[round] = (wall_clock() - start) / STEPS;
         }
-    const double none = median(place[0].cost);
-    printf("contacts of %d grains            contacts   ns a contact   over two grains'\n",
+    printf("contacts of %d grains            contacts   ns a contact   over the grains'\n",
            GRAINS);
-    double grains = 1.0;
-    for (int k = 1; k < CASES; k++) {
-        const double ns =
-            1e9 * (median(place[k].cost) - none) / fmax(1.0, (double)place[k].contacts);
-        grains = k == 1 ? ns : grains;
-        printf("  %-32s %8ld %14.1f %18.2f\n", place[k].name, place[k].contacts, ns,
-               ns / grains);
-        sim_free(place[k].sim);
+    for (int k = 0; k < n_cases; k++)
+        time[k] = median(all[k].cost);
+    for (int k = 1; k < n_cases; k++) {
+        const struct layout *const base = &all[all[k].base];
+        const long contacts = all[k].contacts - base->contacts;
+        const double ns = 1e9 * (time[k] - time[all[k].base]) / fmax(1.0, (double)contacts);
+        const double own = k < 3 ? ns : grains[all[k].base];
+        grains[k == 1 ? 0 : 2] = k < 3 ? ns : grains[2];
+        printf("  %-23s %8s %8ld %14.1f %18.2f\n", all[k].name,
+               k >= 3 && all[k].base > 0 ? "in a bed" : "", contacts, ns, ns / own);
     }
-    sim_free(place[0].sim);
-    unlink(stl);
-    rmdir(folder);
-    xfree(mesh);
-    xfree(stl);
-    return 0;
+    for (int k = 0; k < n_cases; k++) {
+        sim_free(all[k].sim);
+        xfree(all[k].wall);
+    }
+    return clear_up();
 }
