@@ -114,14 +114,15 @@ void members_walls_put_back(struct sim *s, int run)
                 record[RECORD_HEAD + row] = b->memory[row][c];
         }
     }
-    p->n_blocks = p->n_crowds = p->n_order = 0;
+    p->n_blocks = p->n_crowds = p->crowd_blocks = p->n_order = 0;
 }
 
-static void place(const struct sim *s, struct wall_block *p)
+static void place(const struct sim *s, const int *grain, const int *ball, int n,
+                  struct ball_places *p)
 {
-    for (int c = 0; c < p->look.n; c++) {
-        const struct attitude *const a = &s->attitudes[p->i[c]];
-        const real4 row = s->contacts->members.row[p->ball[c]];
+    for (int c = 0; c < n; c++) {
+        const struct attitude *const a = &s->attitudes[grain[c]];
+        const real4 row = s->contacts->members.row[ball[c]];
         const real size = a->spin[3];
         const struct offset o = members_offset(a->turn[0], a->turn[1], a->turn[2], a->turn[3],
                                                size, row[0], row[1], row[2]);
@@ -135,7 +136,7 @@ static void place(const struct sim *s, struct wall_block *p)
     }
 }
 
-static void enter(struct block *b, const struct wall_block *p)
+static void enter(struct block *b, const struct ball_places *p)
 {
     struct touch *const t = &b->t;
 #pragma omp simd
@@ -149,20 +150,19 @@ static void enter(struct block *b, const struct wall_block *p)
         b->vx[c] += p->own[0][c];
         b->vy[c] += p->own[1][c];
         b->vz[c] += p->own[2][c];
-        b->wall[c] = p->wall;
     }
 }
 
-static void leave(struct block *b, struct wall_block *p)
+static void leave(struct block *b, const struct ball_places *p, double (*arm)[TOUCH])
 {
 #pragma omp simd
     for (int c = 0; c < b->t.n; c++) {
         b->l.ix[c] += p->off[0][c];
         b->l.iy[c] += p->off[1][c];
         b->l.iz[c] += p->off[2][c];
-        p->arm[0][c] -= (double)p->off[0][c];
-        p->arm[1][c] -= (double)p->off[1][c];
-        p->arm[2][c] -= (double)p->off[2][c];
+        arm[0][c] -= (double)p->off[0][c];
+        arm[1][c] -= (double)p->off[1][c];
+        arm[2][c] -= (double)p->off[2][c];
     }
 }
 
@@ -176,7 +176,9 @@ static void find_deep(const struct sim *s, int run, struct report *r)
     for (int k = 0; k < p->n_blocks; k++) {
         const struct wall_block *const b = wall_pack_block(p, k, laws_rows());
         for (int c = 0; c < b->n; c++) {
-            const double allowed = s->run.overlap_max * (double)b->radius[c];
+            const real radius =
+                s->attitudes[b->i[c]].spin[3] * s->contacts->members.row[b->ball[c]][3];
+            const double allowed = s->run.overlap_max * (double)radius;
             if (!((double)b->depth[c] > allowed))
                 continue;
             r->i = b->i[c];

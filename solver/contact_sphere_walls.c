@@ -1,167 +1,51 @@
-/* contact_sphere_walls.c - the wall contacts of spheres, a block of one wall at a time.
+/* contact_sphere_walls.c - the wall contacts of spheres, a block of one wall at a time
+ * (contact_wall_pack.h).
  *
- * All elements are looked at first. Where a grain is near several elements of a wall,
- * contact_facing.c tells which of them count: on coplanar triangles a grain feels one plane, at a
- * convex edge one contact, at a concave one two. When a contact goes over to another element of its
- * wall, it takes its memory along: to the one that is new, from the one that ended whose normal is
- * nearest. Everything is decided grain by grain in the order of the slots: the same on any number of
- * threads. */
-#include "contact_walls.h"
+ * Balls that are near several elements of a wall are looked at first, and contact_wall_crowds.c tells
+ * which of these count. Then every block goes through the laws. Everything is decided grain by
+ * grain in the order of the slots: the same on any number of threads. */
+#include "contact_wall_crowds.h"
 
 #include <string.h>
 #include "../contact/bond/bond.h"
 #include "../contact/contact.h"
-#include "contact_facing.h"
 #include "contact_laws.h"
 #include "contact_loop.h"
 #include "contact_spheres.h"
-#include "contact_wall_pack.h"
-#include "sim.h"
+#include "contact_walls.h"
 #include "turn.h"
 
-#define SAME 1e-6 /* of the radius: points nearer than this coincide */
-
-enum { FEW = 32 };
-
-/* One of a crowd. */
-struct member {
-    struct wall_block *block;
-    int c;
+/* What a step takes of a block's geometry. */
+struct sight {
+    struct wall_looks look;
+    double arm[3][TOUCH]; /* m, from the wall's pivot to the centre */
+    struct ball_places places;
 };
 
-static struct member member(const struct wall_pack *p, int entry)
+void spheres_places(const struct sim *s, const int *grain, struct wall_looks *l)
 {
-    return (struct member){wall_pack_block(p, entry / TOUCH, laws_rows()), entry % TOUCH};
-}
-
-static bool is_live(const struct sim *s, const struct member *m)
-{
-    return m->block->depth[m->c] > -(real)s->neighbours.reach;
-}
-
-static struct facing facing_of(const struct sim *s, const struct member *m)
-{
-    const struct wall_block *const b = m->block;
-    const int c = m->c;
-    struct facing f = {.slot = b->slot[c], .wall = b->wall, .local = b->look.element[c]};
-    f.centre = v3_add(s->grains.pos[b->i[c]],
-                      v3((double)b->off[0][c], (double)b->off[1][c], (double)b->off[2][c]));
-    f.away = v3(b->look.ax[c], b->look.ay[c], b->look.az[c]);
-    f.distance = b->distance[c];
-    f.part = (enum wall_part)b->look.part[c];
-    f.live = is_live(s, m);
-    return f;
-}
-
-/* A new contact takes the memory of one that has just ended. */
-static void pass_memory(struct facing *f, const struct member *of, int n, int k)
-{
-    double nearest = 0.0;
-    int from = -1;
-    for (int m = 0; m < n; m++) {
-        if (f[m].counts || !f[m].live)
-            continue;
-        const double cosine = v3_dot(f[m].away, f[k].away) / (f[m].distance * f[k].distance);
-        if (cosine > nearest) {
-            nearest = cosine;
-            from = m;
-        }
+    for (int c = 0; c < l->n && BODY_IS_FLOAT; c++) {
+        const vec3 x = s->grains.pos[grain[c]];
+        l->x[c] = x.x;
+        l->y[c] = x.y;
+        l->z[c] = x.z;
     }
-    if (from < 0)
-        return;
-    const struct member *const a = &of[from], *const b = &of[k];
-    for (int row = 0; row < laws_rows(); row++)
-        b->block->memory[row][b->c] = a->block->memory[row][a->c];
-    b->block->depth[b->c] = a->block->depth[a->c];
-    f[from].live = false; /* given away */
-}
-
-/* Of the elements that a grain is near marks those that count, and hands memory on. */
-static void decide(const struct sim *s, const struct wall_pack *p, struct wall_crowd crowd)
-{
-    struct facing few[FEW], *f = few;
-    struct member some[FEW], *of = some;
-    int n = 0;
-    if (crowd.to - crowd.from > FEW) {
-        f = xalloc((size_t)(crowd.to - crowd.from), sizeof *f);
-        of = xalloc((size_t)(crowd.to - crowd.from), sizeof *of);
-    }
-    for (int e = crowd.from; e < crowd.to; e++) {
-        of[n] = member(p, e);
-        n += of[n].block->counts[of[n].c] || is_live(s, &of[n]);
-    }
-    for (int k = 0; k < n && n > 1; k++)
-        f[k] = facing_of(s, &of[k]);
-    for (int k = 0; k < n && n > 1; k++) {
-        int *const counts = &of[k].block->counts[of[k].c];
-        const double same = SAME * s->grains.radius[of[k].block->i[of[k].c]];
-        *counts = f[k].counts = *counts && !facing_hidden(s, f, n, k, same);
-    }
-    for (int k = 0; k < n && n > 1; k++)
-        if (f[k].counts && !f[k].live)
-            pass_memory(f, of, n, k);
-    if (f != few) {
-        xfree(f);
-        xfree(of);
+    for (int c = 0; c < l->n && !BODY_IS_FLOAT; c++) {
+        const struct body *const body = &s->bodies[grain[c]];
+        l->x[c] = (double)body->place[0];
+        l->y[c] = (double)body->place[1];
+        l->z[c] = (double)body->place[2];
     }
 }
 
-static void look(const struct sim *s, struct wall_block *b, const struct ball_walls *balls)
+static void put_double(double *x, real8 a)
 {
-    const struct grains *const g = &s->grains;
-    const double reach = s->neighbours.reach;
-    struct wall_looks *const l = &b->look;
-    double near[TOUCH];
-    if (balls)
-        balls->place(s, b);
-    for (int c = 0; c < l->n; c++) {
-        const vec3 x = g->pos[b->i[c]];
-        l->x[c] = x.x + (double)b->off[0][c];
-        l->y[c] = x.y + (double)b->off[1][c];
-        l->z[c] = x.z + (double)b->off[2][c];
-        near[c] = (balls ? (double)b->radius[c] : g->radius[b->i[c]]) + reach;
-    }
-    walls_look(s, &s->walls.wall[b->wall], l, b->arm);
-#pragma omp simd
-    for (int c = 0; c < l->n; c++) {
-        const double x = l->ax[c], y = l->ay[c], z = l->az[c];
-        b->distance[c] = sqrt(x * x + y * y + z * z);
-        b->counts[c] = b->distance[c] < near[c];
-    }
-    for (int c = b->n; c < l->n; c++)
-        b->counts[c] = 0;
+    const double8 wide = __builtin_convertvector(a, double8);
+    memcpy(x, &wide, sizeof wide);
 }
 
-/* What the contacts remember turns with the wall about the normal, by the angle 2 h, h = tan(h') the
- * series of the tangent: a rotation whatever the angle, and by that angle to round-off where it is
- * small. With the normal, laws turn it. */
-static void turn_memory(const struct sim *s, const struct wall_pose *pose, struct wall_block *b)
-{
-    const double wx = pose->half_spin.x, wy = pose->half_spin.y, wz = pose->half_spin.z;
-    const double half_dt = 0.5 * s->run.dt;
-    real *const restrict hx = b->memory[0], *const restrict hy = b->memory[1];
-    real *const restrict hz = b->memory[2];
-    if (contact_history < 3)
-        return;
-#pragma omp simd
-    for (int c = 0; c < b->look.n; c++) {
-        const double over = 1.0 / b->distance[c];
-        const double nx = b->look.ax[c] * over, ny = b->look.ay[c] * over;
-        const double nz = b->look.az[c] * over, x = (double)hx[c], y = (double)hy[c],
-                     z = (double)hz[c];
-        const double a = (wx * nx + wy * ny + wz * nz) * half_dt, q = a * a;
-        const double t = a * (1.0 + q * (1.0 / 3.0 + q * (2.0 / 15.0 + q * (17.0 / 315.0))));
-        const double even = 1.0 / (1.0 + t * t), sine = 2.0 * t * even;
-        const double less = 2.0 * t * t * even; /* 1 - cosine */
-        const double along = x * nx + y * ny + z * nz;
-        hx[c] = (real)(x - less * (x - along * nx) + sine * (ny * z - nz * y));
-        hy[c] = (real)(y - less * (y - along * ny) + sine * (nz * x - nx * z));
-        hz[c] = (real)(z - less * (z - along * nz) + sine * (nx * y - ny * x));
-    }
-}
-
-/* The grains' numbers. */
-static void gather(const struct sim *s, struct block *b)
+/* The grains' numbers and places. */
+static void gather(const struct sim *s, struct block *b, struct wall_looks *l)
 {
     struct touch *const t = &b->t;
     for (int c = 0; c < t->n; c += 8) {
@@ -170,6 +54,9 @@ static void gather(const struct sim *s, struct block *b)
         for (int k = 0; k < 8; k++)
             a[k] = take8((const real *)&s->bodies[i[k]].place); /* full comes behind */
         turn8(a);
+        put_double(&l->x[c], a[0]);
+        put_double(&l->y[c], a[1]);
+        put_double(&l->z[c], a[2]);
         put8(&b->vx[c], a[4]);
         put8(&b->vy[c], a[5]);
         put8(&b->vz[c], a[6]);
@@ -183,17 +70,18 @@ static void gather(const struct sim *s, struct block *b)
         put8(&b->pz[c], a[6]);
         put8(&t->r_i[c], a[7]);
     }
+    if (BODY_IS_FLOAT) /* places are no metres */
+        spheres_places(s, b->c.i, l);
 }
 
-/* Takes in a block of the pack: grains and wall. */
-static void take(const struct sim *s, struct block *b, struct wall_block *p)
+/* Takes in a block of the pack. */
+static void take(const struct sim *s, struct block *b, struct wall_block *p, struct sight *v)
 {
     const struct wall *const w = &s->walls.wall[p->wall];
-    const struct wall_looks *const l = &p->look;
     struct touch *const t = &b->t;
     const int materials = s->grains.n_materials;
     b->n = p->n;
-    b->c.n = t->n = l->n;
+    b->c.n = t->n = v->look.n = (p->n + TOUCH_LANES - 1) / TOUCH_LANES * TOUCH_LANES;
     b->kept = p->memory;
     memcpy(b->c.i, p->i, sizeof b->c.i);
     memcpy(b->c.j, p->i, sizeof b->c.j);
@@ -204,62 +92,151 @@ static void take(const struct sim *s, struct block *b, struct wall_block *p)
     }
     for (int c = 0; c < t->n && materials > 1; c++)
         t->pair[c] += (int)s->bodies[p->i[c]].full[3] * materials;
-    gather(s, b);
+    gather(s, b, &v->look);
+}
+
+/* Sees the wall from every ball. */
+static void see(const struct sim *s, const struct wall_block *p, struct sight *v,
+                const struct ball_walls *balls)
+{
+    struct wall_looks *const l = &v->look;
+    memcpy(l->element, p->of, sizeof l->element);
+    if (balls) {
+        balls->place(s, p->i, p->ball, l->n, &v->places);
+        for (int c = 0; c < l->n; c++) {
+            l->x[c] += (double)v->places.off[0][c];
+            l->y[c] += (double)v->places.off[1][c];
+            l->z[c] += (double)v->places.off[2][c];
+        }
+    }
+    walls_look(s, &s->walls.wall[p->wall], l, v->arm);
+}
+
+/* The same of a block of crowds, whose entries have been looked at; returns which count. */
+static void recall_sight(const struct sim *s, const struct wall_pack *pack,
+                         const struct wall_block *p, struct sight *v, int *counts,
+                         const struct ball_walls *balls)
+{
+    struct wall_looks *const l = &v->look;
+    for (int c = 0; c < l->n; c++) {
+        const struct crowd_block *const e = &pack->entry[p->of[c] / TOUCH];
+        const int of = p->of[c] % TOUCH;
+        l->ax[c] = e->look.ax[of];
+        l->ay[c] = e->look.ay[of];
+        l->az[c] = e->look.az[of];
+        l->curvature[c] = e->look.curvature[of];
+        for (int k = 0; k < 3; k++)
+            v->arm[k][c] = e->arm[k][of];
+        counts[c] = e->counts[of];
+    }
+    if (balls)
+        balls->place(s, p->i, p->ball, l->n, &v->places);
+}
+
+/* Distances, normals and levers. */
+static void reach_out(const struct sim *s, struct block *b, const struct wall_looks *l)
+{
+    struct touch *const t = &b->t;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         b->c.dx[c] = (real)l->ax[c];
         b->c.dy[c] = (real)l->ay[c];
         b->c.dz[c] = (real)l->az[c];
         t->r_j[c] = 0.0;
-        t->start[c] = 1.0;
-        b->qx[c] = b->qy[c] = b->qz[c] = 0.0;
     }
+    shape.overlaps(&s->grains, &b->c, t, &b->l);
 }
 
-/* Velocities relative to the wall's at the contact point. */
-static void move(const struct sim *s, struct block *b, struct wall_block *p)
+/* What the contacts remember turns with the wall about the normal, by the angle 2 h, h = tan(h') the
+ * series of the tangent: a rotation whatever the angle, and by that angle to round-off where it is
+ * small. With the normal, laws turn it. */
+static void turn_memory(const struct sim *s, const struct wall_pose *pose, struct block *b)
 {
-    const struct wall *const w = &s->walls.wall[p->wall];
-    const struct wall_pose *const pose = &w->pose;
-    const struct wall_looks *const l = &p->look;
-    const vec3 belt = w->motion.surface, zero = v3(0.0, 0.0, 0.0);
-    const bool moves = w->motion.moves && !s->walls.still;
-    const vec3 half = moves ? v3_add(belt, pose->half) : belt;
-    const vec3 full = moves ? v3_add(belt, pose->velocity) : belt;
-    const vec3 h = moves ? pose->half_spin : zero, f = moves ? pose->spin : zero;
-    struct touch *const t = &b->t;
-#pragma omp simd
-    for (int c = 0; c < t->n; c++) { /* levers: from the pivot */
-        const double x = p->arm[0][c] - l->ax[c], y = p->arm[1][c] - l->ay[c];
-        const double z = p->arm[2][c] - l->az[c];
-        t->vx[c] -= (real)(half.x + (h.y * z - h.z * y));
-        t->vy[c] -= (real)(half.y + (h.z * x - h.x * z));
-        t->vz[c] -= (real)(half.z + (h.x * y - h.y * x));
-        b->vx[c] -= (real)(full.x + (f.y * z - f.z * y));
-        b->vy[c] -= (real)(full.y + (f.z * x - f.x * z));
-        b->vz[c] -= (real)(full.z + (f.x * y - f.y * x));
-        b->qx[c] = (real)h.x;
-        b->qy[c] = (real)h.y;
-        b->qz[c] = (real)h.z;
-    }
-    if (moves && (h.x != 0.0 || h.y != 0.0 || h.z != 0.0))
-        turn_memory(s, pose, p);
-}
-
-/* Reduced masses and radii: on a curved wall those of the sphere that touches a plane like this one. */
-static void reduce(struct block *b, const struct wall_looks *l)
-{
-    struct touch *const t = &b->t;
+    const struct touch *const t = &b->t;
+    const real half_dt = (real)(0.5 * s->run.dt);
+    const real wx = (real)pose->half_spin.x * half_dt, wy = (real)pose->half_spin.y * half_dt;
+    const real wz = (real)pose->half_spin.z * half_dt;
+    real *const restrict hx = b->kept[0], *const restrict hy = b->kept[1];
+    real *const restrict hz = b->kept[2];
+    if (contact_history < 3)
+        return;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
-        const double r = (double)t->r_i[c], square = 1.0 + l->curvature[c] * r;
-        t->m_eff[c] = (real)1.0 / b->inv_m[c];
-        t->r_eff[c] = (real)(r / sqrt(square > 0.01 ? square : 0.01));
+        const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
+        const real x = hx[c], y = hy[c], z = hz[c];
+        const real a = wx * nx + wy * ny + wz * nz, q = a * a;
+        const real h = a * (1.0 + q * (1.0 / 3.0 + q * (2.0 / 15.0 + q * (17.0 / 315.0))));
+        const real even = 1.0 / (1.0 + h * h), sine = 2.0 * h * even;
+        const real less = 2.0 * h * h * even; /* 1 - cosine */
+        const real along = x * nx + y * ny + z * nz;
+        hx[c] = x - less * (x - along * nx) + sine * (ny * z - nz * y);
+        hy[c] = y - less * (y - along * ny) + sine * (nz * x - nx * z);
+        hz[c] = z - less * (z - along * nz) + sine * (nx * y - ny * x);
     }
 }
 
-/* Overlaps are noted for the next step; contacts that do not count are none. */
-static void meet(const struct sim *s, struct block *b, struct wall_block *p, struct report *r)
+/* Velocities at the contact relative to the wall's, which has one of each kind all over if it does not
+ * turn; from the centres', spins and levers. vn from the centres' alone. */
+static void approach(struct block *b, vec3 half, vec3 full)
+{
+    struct touch *const t = &b->t;
+    const real hx = (real)half.x, hy = (real)half.y, hz = (real)half.z;
+    const real fx = (real)full.x, fy = (real)full.y, fz = (real)full.z;
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const real px = b->px[c], py = b->py[c], pz = b->pz[c];
+        const real x = b->l.ix[c], y = b->l.iy[c], z = b->l.iz[c];
+        t->vx[c] = fma(py, z, fma(-pz, y, t->vx[c] - hx));
+        t->vy[c] = fma(pz, x, fma(-px, z, t->vy[c] - hy));
+        t->vz[c] = fma(px, y, fma(-py, x, t->vz[c] - hz));
+        t->wx[c] = px;
+        t->wy[c] = py;
+        t->wz[c] = pz;
+        t->vn[c] = fma(t->nx[c], b->vx[c] - fx,
+                       fma(t->ny[c], b->vy[c] - fy, t->nz[c] * (b->vz[c] - fz)));
+    }
+}
+
+/* What a wall's turning adds, by the levers from its pivot. */
+static void turn_along(struct block *b, const struct sight *v, vec3 half, vec3 full)
+{
+    struct touch *const t = &b->t;
+    const struct wall_looks *const l = &v->look;
+    const vec3 h = half, f = full;
+#pragma omp simd
+    for (int c = 0; c < t->n; c++) {
+        const double x = v->arm[0][c] - l->ax[c], y = v->arm[1][c] - l->ay[c];
+        const double z = v->arm[2][c] - l->az[c];
+        t->vx[c] -= (real)(h.y * z - h.z * y);
+        t->vy[c] -= (real)(h.z * x - h.x * z);
+        t->vz[c] -= (real)(h.x * y - h.y * x);
+        t->wx[c] -= (real)h.x;
+        t->wy[c] -= (real)h.y;
+        t->wz[c] -= (real)h.z;
+        t->vn[c] -= t->nx[c] * (real)(f.y * z - f.z * y) +
+                    t->ny[c] * (real)(f.z * x - f.x * z) + t->nz[c] * (real)(f.x * y - f.y * x);
+    }
+}
+
+static void move(const struct sim *s, struct block *b, int wall, const struct sight *v)
+{
+    const struct wall *const w = &s->walls.wall[wall];
+    const struct wall_pose *const pose = &w->pose;
+    const vec3 belt = w->motion.surface, h = pose->half_spin, f = pose->spin;
+    const bool moves = w->motion.moves && !s->walls.still;
+    const bool turns = moves && (v3_dot(h, h) > 0.0 || v3_dot(f, f) > 0.0);
+    approach(b, moves ? v3_add(belt, pose->half) : belt,
+             moves ? v3_add(belt, pose->velocity) : belt);
+    if (turns) {
+        turn_along(b, v, h, f);
+        turn_memory(s, pose, b);
+    }
+}
+
+/* Reduced masses and radii: on a curved wall those of the sphere that touches a plane like this one. Overlaps
+ * are noted for the next step; contacts that do not count are none. */
+static void meet(const struct sim *s, struct block *b, struct wall_block *p,
+                 const struct wall_looks *l, const int *counts, struct report *r)
 {
     struct touch *const t = &b->t;
     const real most = (real)s->run.overlap_max, gap = (real)s->neighbours.reach;
@@ -267,8 +244,12 @@ static void meet(const struct sim *s, struct block *b, struct wall_block *p, str
     int deep = 0, begun = 0;
 #pragma omp simd reduction(| : deep, begun)
     for (int c = 0; c < t->n; c++) {
-        const real depth = p->counts[c] ? t->depth[c] : -gap - t->r_i[c];
-        deep |= depth > most * t->r_i[c];
+        const real ri = t->r_i[c], square = fma((real)l->curvature[c], ri, 1.0);
+        const real depth = counts[c] ? t->depth[c] : -gap - ri;
+        t->m_eff[c] = (real)1.0 / b->inv_m[c];
+        t->r_eff[c] = ri * inverse_root(square > (real)0.01 ? square : (real)0.01);
+        t->start[c] = 1.0;
+        deep |= depth > most * ri;
         begun |= (p->depth[c] <= (real)0.0) & (depth > (real)0.0);
         before[c] = p->depth[c];
         p->depth[c] = t->depth[c] = depth;
@@ -280,9 +261,9 @@ static void meet(const struct sim *s, struct block *b, struct wall_block *p, str
 
 /* Force and torque on each grain to its sum; on the wall, with the torque about its pivot, to
  * the wall's, eight by eight and these in order. */
-static void add(struct block *b, const struct wall_block *p, const struct target *to)
+static void add(struct block *b, int of, const struct sight *v, const struct target *to)
 {
-    struct sums *const own = to->sums - to->first, *const wall = &to->wall[p->wall];
+    struct sums *const own = to->sums - to->first, *const wall = &to->wall[of];
     double8 force[3] = {{0.0}}, torque[3] = {{0.0}};
     laws_pack_i(b);
     for (int c = 0; c < b->n; c++)
@@ -291,9 +272,9 @@ static void add(struct block *b, const struct wall_block *p, const struct target
         const double8 x = laws_eight(&b->t.fx[c]), y = laws_eight(&b->t.fy[c]);
         const double8 z = laws_eight(&b->t.fz[c]);
         double8 ax, ay, az;
-        memcpy(&ax, &p->arm[0][c], sizeof ax);
-        memcpy(&ay, &p->arm[1][c], sizeof ay);
-        memcpy(&az, &p->arm[2][c], sizeof az);
+        memcpy(&ax, &v->arm[0][c], sizeof ax);
+        memcpy(&ay, &v->arm[1][c], sizeof ay);
+        memcpy(&az, &v->arm[2][c], sizeof az);
         ax += laws_eight(&b->l.ix[c]);
         ay += laws_eight(&b->l.iy[c]);
         az += laws_eight(&b->l.iz[c]);
@@ -310,39 +291,66 @@ static void add(struct block *b, const struct wall_block *p, const struct target
                                 torque[0][k], torque[1][k], torque[2][k], 0.0};
 }
 
+/* Contacts of a block in full. */
+static void work(struct sim *s, const struct wall_pack *pack, struct block *b,
+                 struct wall_block *p, const struct target *to, const struct ball_walls *balls)
+{
+    struct slots *const l = &s->neighbours.walls;
+    const int rows = laws_rows();
+    struct sight v;
+    int counts[TOUCH];
+    for (int c = 0; c < TOUCH; c++)
+        counts[c] = c < p->n;
+    take(s, b, p, &v);
+    if (p->crowds)
+        recall_sight(s, pack, p, &v, counts, balls);
+    else
+        see(s, p, &v, balls);
+    for (int c = p->n; c < TOUCH; c++)
+        counts[c] = 0;
+    if (balls) {
+        balls->enter(b, &v.places);
+        for (int c = 0; c < b->n; c++)
+            b->wall[c] = p->wall;
+    }
+    reach_out(s, b, &v.look);
+    move(s, b, p->wall, &v);
+    meet(s, b, p, &v.look, counts, to->report);
+    laws_apply(s, b);
+    if (balls)
+        balls->leave(b, &v.places, v.arm);
+    laws_note_broken(s, b, l, to->time);
+    spheres_forget(b, rows, (real)s->neighbours.reach);
+    add(b, p->wall, &v, to);
+    if (to->asked && balls)
+        balls->report(s, b, to->report);
+    else if (to->asked)
+        spheres_report(s, b, l, to->report);
+}
+
+/* Elements that have no lane are touched by nobody. */
+static void clear_marks(const struct wall_pack *pack, struct slots *l)
+{
+    for (int k = 0; k < pack->crowd_blocks; k++)
+        for (int c = 0; c < pack->entry[k].n; c++)
+            l->live[pack->entry[k].slot[c]] = 0;
+}
+
 void ball_walls(struct sim *s, int run, struct block *b, const struct target *to,
                 const struct ball_walls *balls)
 {
     struct wall_pack *const pack = &s->contacts->wall_pack[run];
-    struct slots *const l = &s->neighbours.walls;
     const int rows = laws_rows();
-    for (int k = 0; k < pack->n_blocks; k++)
-        look(s, wall_pack_block(pack, k, rows), balls);
-    for (int k = 0; k < pack->n_crowds; k++)
-        decide(s, pack, pack->crowd[k]);
+    wall_crowds_decide(s, pack, balls);
+    if (to->asked && !balls)
+        clear_marks(pack, &s->neighbours.walls);
     b->walls = true;
     b->t.dt = s->run.dt;
     b->t.time = to->time;
     for (int k = 0; k < pack->n_blocks; k++) {
         struct wall_block *const p = wall_pack_block(pack, k, rows);
-        take(s, b, p);
-        if (balls)
-            balls->enter(b, p);
-        move(s, b, p);
-        reduce(b, &p->look);
-        shape.overlaps(&s->grains, &b->c, &b->t, &b->l);
-        laws_velocities(b);
-        meet(s, b, p, to->report);
-        laws_apply(s, b);
-        if (balls)
-            balls->leave(b, p);
-        laws_note_broken(s, b, l, to->time);
-        spheres_forget(b, rows, (real)s->neighbours.reach);
-        add(b, p, to);
-        if (to->asked && balls)
-            balls->report(s, b, to->report);
-        else if (to->asked)
-            spheres_report(s, b, l, to->report);
+        if (p->n > 0)
+            work(s, pack, b, p, to, balls);
     }
     b->n = 0;
     b->kept = NULL;

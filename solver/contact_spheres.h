@@ -38,18 +38,21 @@ void spheres_forget(struct block *b, int rows, real reach);
 void spheres_report(const struct sim *s, struct block *b, struct slots *l, struct report *r);
 
 /* Grains of several balls (contact_members.c) meet walls by each of them: what that takes beyond spheres. */
-struct wall_block;
+struct ball_places;
 struct ball_walls {
-    /* The balls' places from the grains' centres, radii, the velocity that the full spin gives them: p->off,
-     * p->radius, p->own. */
-    void (*place)(const struct sim *s, struct wall_block *p);
+    /* Of n balls, rows of the members' table, of these grains. */
+    void (*place)(const struct sim *s, const int *grain, const int *ball, int n,
+                  struct ball_places *p);
     /* From the grains to the balls: velocities and radii of a block. */
-    void (*enter)(struct block *b, const struct wall_block *p);
-    /* Levers and p->arm from the balls' centres to the grains'. */
-    void (*leave)(struct block *b, struct wall_block *p);
+    void (*enter)(struct block *b, const struct ball_places *p);
+    /* Levers and arms (m, from the wall's pivot) from the balls' centres to the grains'. */
+    void (*leave)(struct block *b, const struct ball_places *p, double (*arm)[TOUCH]);
     /* In place of spheres_report. */
     void (*report)(struct sim *s, struct block *b, struct report *r);
 };
+
+/* m, the centres of these grains, l->n of them, to l->x, y, z. */
+void spheres_places(const struct sim *s, const int *grain, struct wall_looks *l);
 
 /* The same with balls; NULL: spheres. */
 void ball_walls(struct sim *s, int run, struct block *b, const struct target *to,

@@ -1,5 +1,6 @@
 /* wall_looks.c - several elements of a wall as seen each from its point: into the frame of the wall,
  * its kind's `views`, and back (walls.c does the same for one). */
+#include <string.h>
 #include "sim.h"
 
 /* Points to where their nearest image lies. `middle`: m, of each element, in the laboratory but for
@@ -88,6 +89,7 @@ void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
         turn(p->turn, true, l->n, l->x, l->y, l->z);
         shift(l->n, pivot, l->x, l->y, l->z);
     }
+    memset(l->seam, 0, sizeof l->seam);
     if (w->kind->views)
         w->kind->views(w->shape, l);
     else

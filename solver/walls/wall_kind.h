@@ -50,6 +50,10 @@ struct wall_canvas {
     vec3 low, high;
 };
 
+/* At an edge or vertex that neighbours share a ball may be nearer to one of these: always where the
+ * surface goes on flat, and on its hollow side. */
+enum wall_seam { SEAM_NONE, SEAM_FLAT, SEAM_HOLLOW };
+
 /* Elements of one wall as seen each from a point of its own; in the frame of the wall. */
 enum { WALL_LOOKS = 32 };
 struct wall_looks {
@@ -59,6 +63,8 @@ struct wall_looks {
     double ax[WALL_LOOKS], ay[WALL_LOOKS], az[WALL_LOOKS];           /* m, away */
     double curvature[WALL_LOOKS];                                    /* 1/m */
     int part[WALL_LOOKS];                                            /* enum wall_part */
+    int seam
+        [WALL_LOOKS]; /* enum wall_seam, of a kind that knows its elements' neighbours; comes as 0 */
 };
 
 struct wall_kind {
