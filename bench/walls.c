@@ -27,8 +27,8 @@ struct layout {
 
 static void apart(int i, double *x)
 {
-    x[0] = 2e-3 + EDGE * (i % SIDE);
-    x[1] = 2e-3 + EDGE * (i / SIDE);
+    x[0] = 2.13e-3 + EDGE * (i % SIDE);
+    x[1] = 2.37e-3 + EDGE * (i / SIDE);
     x[2] = 50e-3;
 }
 

@@ -25,7 +25,7 @@ static void add_entry(struct entries *all, int slot, int ball)
         all->e = xrealloc(all->e, (size_t)all->room, (size_t)more, sizeof *all->e);
         all->room = more;
     }
-    all->e[all->n++] = (struct wall_entry){slot, ball};
+    all->e[all->n++] = (struct wall_entry){slot, ball, ALONE};
 }
 
 static void recall(const struct sim *s, struct wall_block *b, int c)
@@ -64,6 +64,8 @@ static void find(const struct sim *s, const struct wall_entry *slot, int n, stru
     }
 }
 
+static const struct ball_walls balls;
+
 void members_walls_take(struct sim *s, int run)
 {
     const struct slots *const l = &s->neighbours.walls;
@@ -77,7 +79,7 @@ void members_walls_take(struct sim *s, int run)
             to++;
         find(s, &p->order[k], to - k, &all);
     }
-    wall_pack_build(s, p, all.e, all.n, recall);
+    wall_pack_build(s, p, all.e, all.n, &balls, recall);
     xfree(all.e);
 }
 
@@ -114,7 +116,7 @@ void members_walls_put_back(struct sim *s, int run)
                 record[RECORD_HEAD + row] = b->memory[row][c];
         }
     }
-    p->n_blocks = p->n_crowds = p->crowd_blocks = p->n_order = 0;
+    p->n_blocks = p->n_crowds = p->n_entries = p->n_order = 0;
 }
 
 static void place(const struct sim *s, const int *grain, const int *ball, int n,

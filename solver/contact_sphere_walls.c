@@ -100,7 +100,7 @@ static void see(const struct sim *s, const struct wall_block *p, struct sight *v
                 const struct ball_walls *balls)
 {
     struct wall_looks *const l = &v->look;
-    memcpy(l->element, p->of, sizeof l->element);
+    memcpy(l->element, p->element, sizeof l->element);
     if (balls) {
         balls->place(s, p->i, p->ball, l->n, &v->places);
         for (int c = 0; c < l->n; c++) {
@@ -109,28 +109,11 @@ static void see(const struct sim *s, const struct wall_block *p, struct sight *v
             l->z[c] += (double)v->places.off[2][c];
         }
     }
-    walls_look(s, &s->walls.wall[p->wall], l, v->arm);
-}
-
-/* The same of a block of crowds, whose entries have been looked at; returns which count. */
-static void recall_sight(const struct sim *s, const struct wall_pack *pack,
-                         const struct wall_block *p, struct sight *v, int *counts,
-                         const struct ball_walls *balls)
-{
-    struct wall_looks *const l = &v->look;
-    for (int c = 0; c < l->n; c++) {
-        const struct crowd_block *const e = &pack->entry[p->of[c] / TOUCH];
-        const int of = p->of[c] % TOUCH;
-        l->ax[c] = e->look.ax[of];
-        l->ay[c] = e->look.ay[of];
-        l->az[c] = e->look.az[of];
-        l->curvature[c] = e->look.curvature[of];
-        for (int k = 0; k < 3; k++)
-            v->arm[k][c] = e->arm[k][of];
-        counts[c] = e->counts[of];
-    }
-    if (balls)
-        balls->place(s, p->i, p->ball, l->n, &v->places);
+    if (p->kind == ON_FACE)
+        walls_look_flat(s, &s->walls.wall[p->wall], (const double(*)[WALL_LOOKS])p->plane, l,
+                        v->arm);
+    else
+        walls_look(s, &s->walls.wall[p->wall], l, v->arm);
 }
 
 /* Distances, normals and levers. */
@@ -236,7 +219,7 @@ static void move(const struct sim *s, struct block *b, int wall, const struct si
 /* Reduced masses and radii: on a curved wall those of the sphere that touches a plane like this one. Overlaps
  * are noted for the next step; contacts that do not count are none. */
 static void meet(const struct sim *s, struct block *b, struct wall_block *p,
-                 const struct wall_looks *l, const int *counts, struct report *r)
+                 const struct wall_looks *l, struct report *r)
 {
     struct touch *const t = &b->t;
     const real most = (real)s->run.overlap_max, gap = (real)s->neighbours.reach;
@@ -245,7 +228,7 @@ static void meet(const struct sim *s, struct block *b, struct wall_block *p,
 #pragma omp simd reduction(| : deep, begun)
     for (int c = 0; c < t->n; c++) {
         const real ri = t->r_i[c], square = fma((real)l->curvature[c], ri, 1.0);
-        const real depth = counts[c] ? t->depth[c] : -gap - ri;
+        const real depth = p->counts[c] ? t->depth[c] : -gap - ri;
         t->m_eff[c] = (real)1.0 / b->inv_m[c];
         t->r_eff[c] = ri * inverse_root(square > (real)0.01 ? square : (real)0.01);
         t->start[c] = 1.0;
@@ -292,22 +275,14 @@ static void add(struct block *b, int of, const struct sight *v, const struct tar
 }
 
 /* Contacts of a block in full. */
-static void work(struct sim *s, const struct wall_pack *pack, struct block *b,
-                 struct wall_block *p, const struct target *to, const struct ball_walls *balls)
+static void work(struct sim *s, struct block *b, struct wall_block *p, const struct target *to,
+                 const struct ball_walls *balls)
 {
     struct slots *const l = &s->neighbours.walls;
     const int rows = laws_rows();
     struct sight v;
-    int counts[TOUCH];
-    for (int c = 0; c < TOUCH; c++)
-        counts[c] = c < p->n;
     take(s, b, p, &v);
-    if (p->crowds)
-        recall_sight(s, pack, p, &v, counts, balls);
-    else
-        see(s, p, &v, balls);
-    for (int c = p->n; c < TOUCH; c++)
-        counts[c] = 0;
+    see(s, p, &v, balls);
     if (balls) {
         balls->enter(b, &v.places);
         for (int c = 0; c < b->n; c++)
@@ -315,7 +290,7 @@ static void work(struct sim *s, const struct wall_pack *pack, struct block *b,
     }
     reach_out(s, b, &v.look);
     move(s, b, p->wall, &v);
-    meet(s, b, p, &v.look, counts, to->report);
+    meet(s, b, p, &v.look, to->report);
     laws_apply(s, b);
     if (balls)
         balls->leave(b, &v.places, v.arm);
@@ -331,9 +306,8 @@ static void work(struct sim *s, const struct wall_pack *pack, struct block *b,
 /* Elements that have no lane are touched by nobody. */
 static void clear_marks(const struct wall_pack *pack, struct slots *l)
 {
-    for (int k = 0; k < pack->crowd_blocks; k++)
-        for (int c = 0; c < pack->entry[k].n; c++)
-            l->live[pack->entry[k].slot[c]] = 0;
+    for (int k = 0; k < pack->n_entries; k++)
+        l->live[pack->entry[k].slot] = 0;
 }
 
 void ball_walls(struct sim *s, int run, struct block *b, const struct target *to,
@@ -350,7 +324,7 @@ void ball_walls(struct sim *s, int run, struct block *b, const struct target *to
     for (int k = 0; k < pack->n_blocks; k++) {
         struct wall_block *const p = wall_pack_block(pack, k, rows);
         if (p->n > 0)
-            work(s, pack, b, p, to, balls);
+            work(s, b, p, to, balls);
     }
     b->n = 0;
     b->kept = NULL;

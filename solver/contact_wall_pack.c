@@ -4,6 +4,7 @@
 #include <string.h>
 #include "contact_laws.h"
 #include "contact_loop.h"
+#include "contact_wall_crowds.h"
 #include "sim.h"
 
 _Static_assert((int)WALL_LOOKS == (int)TOUCH, "a block is looked at in one go");
@@ -68,22 +69,14 @@ static void close_block(struct wall_block *b, int rows)
         b->i[c] = b->i[last];
         b->slot[c] = b->slot[last];
         b->ball[c] = b->ball[last];
-        b->of[c] = b->of[last];
+        b->element[c] = b->element[last];
+        b->counts[c] = 0;
+        for (int k = 0; k < 6; k++)
+            b->plane[k][c] = b->plane[k][last];
         b->depth[c] = -(real)INFINITY;
         for (int row = 0; row < rows; row++)
             b->memory[row][c] = 0.0;
     }
-}
-
-static void close_entries(struct crowd_block *b)
-{
-    const int last = b->n - 1;
-    for (int c = b->n; c < TOUCH; c++) {
-        b->i[c] = b->i[last];
-        b->ball[c] = b->ball[last];
-        b->look.element[c] = b->look.element[last];
-    }
-    b->look.n = (b->n + TOUCH_LANES - 1) / TOUCH_LANES * TOUCH_LANES;
 }
 
 static int blocks_for(int n)
@@ -94,7 +87,7 @@ static int blocks_for(int n)
 /* The entries of one wall from k on. */
 struct part {
     int wall, from, to;
-    int alone, crowded; /* of how many balls that are near one element; the other entries */
+    int n[LANE_KINDS]; /* how many of each kind */
 };
 
 static int wall_of(const struct sim *s, const struct wall_entry *e)
@@ -102,28 +95,21 @@ static int wall_of(const struct sim *s, const struct wall_entry *e)
     return s->walls.wall_of[s->neighbours.walls.other[e->slot]];
 }
 
-/* Where the entries of the ball of entry k end. */
-static int end_of_ball(const struct slots *l, const struct wall_entry *e, int k, int to)
+int wall_entries_end(const struct sim *s, const struct wall_entry *e, int k, int n)
 {
+    const int *const owner = s->neighbours.walls.owner;
     int end = k + 1;
-    while (end < to && e[end].ball == e[k].ball && l->owner[e[end].slot] == l->owner[e[k].slot])
+    while (end < n && e[end].ball == e[k].ball && owner[e[end].slot] == owner[e[k].slot] &&
+           wall_of(s, &e[end]) == wall_of(s, &e[k]))
         end++;
     return end;
 }
 
 static struct part next_part(const struct sim *s, const struct wall_entry *e, int from, int n)
 {
-    const struct slots *const l = &s->neighbours.walls;
     struct part p = {.wall = wall_of(s, &e[from]), .from = from, .to = from};
-    while (p.to < n && wall_of(s, &e[p.to]) == p.wall)
-        p.to++;
-    for (int k = from, end; k < p.to; k = end) {
-        end = end_of_ball(l, e, k, p.to);
-        if (end == k + 1)
-            p.alone++;
-        else
-            p.crowded += end - k;
-    }
+    for (; p.to < n && wall_of(s, &e[p.to]) == p.wall; p.to++)
+        p.n[e[p.to].kind]++;
     return p;
 }
 
@@ -133,10 +119,11 @@ static void make_room(const struct sim *s, struct wall_pack *p, const struct wal
     int blocks = 0, entries = 0, crowds = 0, lanes = 0;
     for (int k = 0; k < n;) {
         const struct part of = next_part(s, e, k, n);
-        blocks += blocks_for(of.alone) + blocks_for(of.crowded);
-        entries += blocks_for(of.crowded);
-        crowds += of.crowded / 2;
-        lanes += of.crowded > 0;
+        for (int kind = 0; kind < LANE_KINDS; kind++)
+            blocks += blocks_for(of.n[kind]);
+        entries += of.n[OF_CROWD];
+        crowds += of.n[OF_CROWD] / 2;
+        lanes += of.n[OF_CROWD] > 0;
         k = of.to;
     }
     reserve((void **)&p->data, &p->room, blocks, wall_pack_size(laws_rows()));
@@ -145,40 +132,55 @@ static void make_room(const struct sim *s, struct wall_pack *p, const struct wal
     reserve((void **)&p->lanes, &p->lanes_room, lanes, sizeof *p->lanes);
 }
 
-static struct wall_block *new_block(struct wall_pack *p, int wall, bool crowds)
+static struct wall_block *new_block(struct wall_pack *p, int wall, enum wall_lane kind)
 {
     struct wall_block *const b = wall_pack_block(p, p->n_blocks++, laws_rows());
     b->wall = wall;
     b->n = 0;
-    b->crowds = crowds;
+    b->kind = kind;
     return b;
 }
 
 static void write_lane(const struct sim *s, struct wall_block *b, int c,
-                       const struct wall_entry *e, int of)
+                       const struct wall_entry *e)
 {
+    const int element = s->neighbours.walls.other[e->slot];
     b->i[c] = s->neighbours.walls.owner[e->slot];
     b->slot[c] = e->slot;
     b->ball[c] = e->ball;
-    b->of[c] = of;
+    b->element[c] = element - s->walls.first[b->wall];
+    b->counts[c] = 1;
 }
 
 typedef void recall_lane(const struct sim *s, struct wall_block *b, int c);
 
-/* Balls that are near one element. */
-static void pack_alone(const struct sim *s, struct wall_pack *p, const struct wall_entry *e,
-                       const struct part *of, recall_lane *recalled)
+static void write_plane(const struct sim *s, struct wall_block *b, int c, int slot)
 {
-    const struct slots *const l = &s->neighbours.walls;
+    struct wall_flat plane;
+    double within;
+    wall_flat_at(s, s->neighbours.walls.other[slot], v3(0.0, 0.0, 0.0), &plane, &within);
+    b->plane[0][c] = plane.point.x;
+    b->plane[1][c] = plane.point.y;
+    b->plane[2][c] = plane.point.z;
+    b->plane[3][c] = plane.normal.x;
+    b->plane[4][c] = plane.normal.y;
+    b->plane[5][c] = plane.normal.z;
+}
+
+/* Those that nothing is to be decided about. */
+static void pack_lanes(const struct sim *s, struct wall_pack *p, const struct wall_entry *e,
+                       const struct part *of, enum wall_lane kind, recall_lane *recalled)
+{
     struct wall_block *b = NULL;
-    for (int k = of->from, end; k < of->to; k = end) {
-        end = end_of_ball(l, e, k, of->to);
-        if (end > k + 1)
+    for (int k = of->from; k < of->to; k++) {
+        if (e[k].kind != kind)
             continue;
         if (!b || b->n == TOUCH)
-            b = new_block(p, of->wall, false);
-        write_lane(s, b, b->n, &e[k], l->other[e[k].slot] - s->walls.first[of->wall]);
+            b = new_block(p, of->wall, kind);
+        write_lane(s, b, b->n, &e[k]);
         recalled(s, b, b->n);
+        if (kind == ON_FACE)
+            write_plane(s, b, b->n, e[k].slot);
         b->n++;
     }
     if (b)
@@ -187,12 +189,12 @@ static void pack_alone(const struct sim *s, struct wall_pack *p, const struct wa
 
 /* A lane where the contact lives; returns its number or -1. */
 static int take_lane(const struct sim *s, struct wall_pack *p, const struct wall_entry *e,
-                     int entry, recall_lane *recalled)
+                     recall_lane *recalled)
 {
     struct wall_lanes *const lanes = &p->lanes[p->n_lanes - 1];
     struct wall_block *const b =
         wall_pack_block(p, lanes->block + lanes->n / TOUCH, laws_rows());
-    write_lane(s, b, b->n, e, entry);
+    write_lane(s, b, b->n, e);
     recalled(s, b, b->n);
     if (!(b->depth[b->n] > -(real)s->neighbours.reach))
         return -1;
@@ -200,85 +202,76 @@ static int take_lane(const struct sim *s, struct wall_pack *p, const struct wall
     return lanes->n++;
 }
 
-static struct crowd_block *new_entries(struct wall_pack *p, int wall)
-{
-    struct crowd_block *const b = &p->entry[p->crowd_blocks++];
-    b->wall = wall;
-    b->n = 0;
-    memset(&b->places, 0, sizeof b->places);
-    return b;
-}
-
-/* Balls that are near several. */
 static void pack_crowds(const struct sim *s, struct wall_pack *p, const struct wall_entry *e,
                         const struct part *of, recall_lane *recalled)
 {
     const struct slots *const l = &s->neighbours.walls;
-    struct crowd_block *b = NULL;
-    int entry = p->crowd_blocks * TOUCH;
-    p->lanes[p->n_lanes++] = (struct wall_lanes){.block = p->n_blocks};
-    for (int k = 0; k < blocks_for(of->crowded); k++)
-        new_block(p, of->wall, true);
+    const int first = p->n_blocks, lanes = p->n_lanes++;
+    p->lanes[lanes] = (struct wall_lanes){.wall = of->wall, .block = first};
+    for (int k = 0; k < blocks_for(of->n[OF_CROWD]); k++)
+        new_block(p, of->wall, OF_CROWD);
     for (int k = of->from, end; k < of->to; k = end) {
-        end = end_of_ball(l, e, k, of->to);
-        if (end == k + 1)
+        end = wall_entries_end(s, e, k, of->to);
+        if (e[k].kind != OF_CROWD)
             continue;
-        p->crowd[p->n_crowds++] = (struct wall_crowd){entry, entry + end - k, p->n_lanes - 1};
-        for (int m = k; m < end; m++, entry++) {
-            if (!b || b->n == TOUCH)
-                b = new_entries(p, of->wall);
-            const int c = b->n++;
-            b->i[c] = l->owner[e[m].slot];
-            b->slot[c] = e[m].slot;
-            b->ball[c] = e[m].ball;
-            b->look.element[c] = l->other[e[m].slot] - s->walls.first[of->wall];
-            b->lane[c] = take_lane(s, p, &e[m], entry, recalled);
-            if (b->n == TOUCH)
-                close_entries(b);
-        }
+        p->crowd[p->n_crowds++] =
+            (struct wall_crowd){p->n_entries, p->n_entries + end - k, lanes};
+        for (int m = k; m < end; m++)
+            p->entry[p->n_entries++] =
+                (struct crowd_entry){.i = l->owner[e[m].slot],
+                                     .slot = e[m].slot,
+                                     .ball = e[m].ball,
+                                     .element = l->other[e[m].slot] - s->walls.first[of->wall],
+                                     .patch = wall_patch(s, l->other[e[m].slot]),
+                                     .lane = take_lane(s, p, &e[m], recalled)};
     }
-    close_entries(b);
-    for (int k = p->lanes[p->n_lanes - 1].block; k < p->n_blocks; k++)
+    for (int k = first; k < p->n_blocks; k++)
         close_block(wall_pack_block(p, k, laws_rows()), laws_rows());
 }
 
-void wall_pack_build(struct sim *s, struct wall_pack *p, const struct wall_entry *e, int n,
-                     recall_lane *recalled)
+void wall_pack_build(struct sim *s, struct wall_pack *p, struct wall_entry *e, int n,
+                     const struct ball_walls *balls, recall_lane *recalled)
 {
-    p->n_blocks = p->n_crowds = p->n_lanes = p->crowd_blocks = 0;
+    n = wall_crowds_thin(s, e, n, balls);
+    p->n_blocks = p->n_crowds = p->n_lanes = p->n_entries = 0;
     make_room(s, p, e, n);
     for (int k = 0; k < n;) {
         const struct part of = next_part(s, e, k, n);
-        if (of.alone > 0)
-            pack_alone(s, p, e, &of, recalled);
-        if (of.crowded > 0)
+        pack_lanes(s, p, e, &of, ON_FACE, recalled);
+        pack_lanes(s, p, e, &of, ALONE, recalled);
+        if (of.n[OF_CROWD] > 0)
             pack_crowds(s, p, e, &of, recalled);
         k = of.to;
     }
 }
 
-void wall_pack_begin(struct wall_pack *p, struct crowd_block *e, int c, int entry, int of)
+struct wall_block *wall_pack_lane(const struct wall_pack *p, const struct wall_crowd *crowd,
+                                  int lane)
 {
-    struct wall_lanes *const lanes = &p->lanes[of];
-    const int lane = lanes->n++, rows = laws_rows();
-    struct wall_block *const b = wall_pack_block(p, lanes->block + lane / TOUCH, rows);
-    const int at = b->n++;
-    b->i[at] = e->i[c];
-    b->slot[at] = e->slot[c];
-    b->ball[at] = e->ball[c];
-    b->of[at] = entry;
-    b->depth[at] = -(real)INFINITY;
-    for (int row = 0; row < rows; row++)
-        b->memory[row][at] = 0.0;
-    e->lane[c] = lane;
-    close_block(b, rows);
+    return wall_pack_block(p, p->lanes[crowd->of].block + lane / TOUCH, laws_rows());
+}
+
+void wall_pack_begin(struct wall_pack *p, struct crowd_entry *e, const struct wall_crowd *crowd)
+{
+    const int lane = p->lanes[crowd->of].n++;
+    struct wall_block *const b = wall_pack_lane(p, crowd, lane);
+    const int c = b->n++;
+    b->i[c] = e->i;
+    b->slot[c] = e->slot;
+    b->ball[c] = e->ball;
+    b->element[c] = e->element;
+    b->depth[c] = -(real)INFINITY;
+    for (int row = 0; row < laws_rows(); row++)
+        b->memory[row][c] = 0.0;
+    e->lane = lane;
+    close_block(b, laws_rows());
 }
 
 void wall_pack_fill(struct sim *s, int run)
 {
     struct wall_pack *const p = &s->contacts->wall_pack[run];
     wall_pack_sort(s, p, run);
-    wall_pack_build(s, p, p->order, p->n_order, recall);
+    wall_pack_build(s, p, p->order, p->n_order, NULL, recall);
 }
 
 /* A contact's memory to its slot. */
@@ -297,16 +290,14 @@ void wall_pack_put_back(struct sim *s, int run)
     const struct slots *const l = &nb->walls;
     const size_t size = (size_t)nb->rows * sizeof *l->memory;
     struct wall_pack *const p = &s->contacts->wall_pack[run];
-    for (int k = 0; k < p->crowd_blocks; k++)
-        for (int c = 0; c < p->entry[k].n; c++) {
-            const int slot = p->entry[k].slot[c];
-            l->live[slot] = 0;
-            memset(&l->memory[(size_t)slot * nb->rows], 0, size);
-        }
+    for (int k = 0; k < p->n_entries; k++) {
+        l->live[p->entry[k].slot] = 0;
+        memset(&l->memory[(size_t)p->entry[k].slot * nb->rows], 0, size);
+    }
     for (int k = 0; k < p->n_blocks; k++) {
         const struct wall_block *const b = wall_pack_block(p, k, nb->rows);
         for (int c = 0; c < b->n; c++)
             put_back(nb, b, c);
     }
-    p->n_blocks = p->n_crowds = p->crowd_blocks = 0;
+    p->n_blocks = p->n_crowds = p->n_entries = 0;
 }

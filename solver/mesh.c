@@ -1,4 +1,4 @@
-/* mesh.c - triangles, their nearest points, and the tree of boxes that finds them.
+/* mesh.c - triangles and the tree of boxes that finds them.
  *
  * The tree halves the triangles of a box at the median of their middles along its longest side,
  * down to a few per leaf: a grain far from the mesh looks at one box. */
@@ -7,100 +7,6 @@
 #include <stdlib.h>
 
 enum { LEAF = 4 };
-
-/* Nearest point of the segment from + t along, 0 <= t <= 1, to x; squares of distances. */
-static double segment(vec3 from, vec3 along, vec3 x, vec3 *away, enum wall_part *part)
-{
-    const vec3 rel = v3_sub(x, from);
-    const double t = v3_dot(rel, along) / v3_dot(along, along);
-    *part = t <= 0.0 || t >= 1.0 ? WALL_VERTEX : WALL_EDGE;
-    *away = v3_axpy(rel, -fmin(fmax(t, 0.0), 1.0), along);
-    if (t >= 1.0)
-        *away = v3_sub(x, v3_add(from, along));
-    return v3_dot(*away, *away);
-}
-
-/* The nearest of its edges and corners. */
-static void view_rim(const struct triangle *t, vec3 x, struct wall_view *out)
-{
-    const vec3 from[3] = {t->a, t->a, v3_add(t->a, t->e1)};
-    const vec3 along[3] = {t->e1, t->e2, v3_sub(t->e2, t->e1)};
-    double least = (double)INFINITY;
-    for (int k = 0; k < 3; k++) {
-        struct wall_view view = {.part = WALL_EDGE};
-        const double square = segment(from[k], along[k], x, &view.away, &view.part);
-        if (square < least) {
-            least = square;
-            *out = view;
-        }
-    }
-}
-
-void triangle_view(const struct triangle *t, const vec3 *x, struct wall_view *out)
-{
-    const vec3 at = v3(x->x, x->y, x->z), rel = v3_sub(at, t->a);
-    const double u = v3_dot(rel, t->g1), v = v3_dot(rel, t->g2);
-    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0)
-        wall_view_put(out, v3_scale(v3_dot(rel, t->normal), t->normal), 0.0, WALL_FACE);
-    else
-        view_rim(t, at, out);
-}
-
-/* From its nearest point of a segment to a point. */
-struct rim {
-    double x, y, z, square; /* m, m2 */
-    int part;
-};
-
-#define RIM_INLINE static inline __attribute__((always_inline))
-
-/* The segment along e from the origin, where it is nearer to f than what was found before. */
-RIM_INLINE struct rim nearer_rim(struct rim r, double fx, double fy, double fz, double ex,
-                                 double ey, double ez)
-{
-    const double t = (fx * ex + fy * ey + fz * ez) / (ex * ex + ey * ey + ez * ez);
-    const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-    const double x = fx - at * ex, y = fy - at * ey, z = fz - at * ez;
-    const double square = x * x + y * y + z * z;
-    const int part = at == t ? WALL_EDGE : WALL_VERTEX;
-    r.x = square < r.square ? x : r.x;
-    r.y = square < r.square ? y : r.y;
-    r.z = square < r.square ? z : r.z;
-    r.part = square < r.square ? part : r.part;
-    r.square = square < r.square ? square : r.square;
-    return r;
-}
-
-/* triangle_view for several: face and rim are both computed, one is taken. The numbers of a triangle are
- * a row of doubles, which the compiler gathers. */
-void triangle_views(const struct triangle *triangle, struct wall_looks *l)
-{
-    enum { A = 0, E1 = 3, E2 = 6, NORMAL = 9, G1 = 12, G2 = 15, ROW = 18 };
-    _Static_assert(sizeof(struct triangle) == ROW * sizeof(double), "a row of numbers");
-    const double *const row = &triangle->a.x;
-#pragma omp simd
-    for (int c = 0; c < l->n; c++) {
-        const int t = ROW * l->element[c];
-        const double x = l->x[c] - row[t + A], y = l->y[c] - row[t + A + 1];
-        const double z = l->z[c] - row[t + A + 2];
-        const double ux = row[t + E1], uy = row[t + E1 + 1], uz = row[t + E1 + 2];
-        const double vx = row[t + E2], vy = row[t + E2 + 1], vz = row[t + E2 + 2];
-        const double nx = row[t + NORMAL], ny = row[t + NORMAL + 1], nz = row[t + NORMAL + 2];
-        const double u = x * row[t + G1] + y * row[t + G1 + 1] + z * row[t + G1 + 2];
-        const double v = x * row[t + G2] + y * row[t + G2 + 1] + z * row[t + G2 + 2];
-        const double h = x * nx + y * ny + z * nz;
-        const int face = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0);
-        struct rim r = {.square = (double)INFINITY, .part = WALL_EDGE};
-        r = nearer_rim(r, x, y, z, ux, uy, uz);
-        r = nearer_rim(r, x, y, z, vx, vy, vz);
-        r = nearer_rim(r, x - ux, y - uy, z - uz, vx - ux, vy - uy, vz - uz);
-        l->ax[c] = face ? h * nx : r.x;
-        l->ay[c] = face ? h * ny : r.y;
-        l->az[c] = face ? h * nz : r.z;
-        l->curvature[c] = 0.0;
-        l->part[c] = face ? WALL_FACE : r.part;
-    }
-}
 
 static bool set_triangle(struct triangle *t, const vec3 *c)
 {
@@ -111,9 +17,13 @@ static bool set_triangle(struct triangle *t, const vec3 *c)
     if (!(twice > 1e-10 * longest))
         return false;
     const double det = twice * twice;
-    *t = (struct triangle){.a = c[0], .e1 = e1, .e2 = e2, .normal = v3_scale(1.0 / twice, n)};
-    t->g1 = v3_axpy(v3_scale(d / det, e1), -b / det, e2);
-    t->g2 = v3_axpy(v3_scale(a / det, e2), -b / det, e1);
+    *t = (struct triangle){.a = c[0],
+                           .e1 = e1,
+                           .e2 = e2,
+                           .normal = v3_scale(1.0 / twice, n),
+                           .g11 = d / det,
+                           .g12 = -b / det,
+                           .g22 = a / det};
     return true;
 }
 
@@ -194,10 +104,15 @@ static void plant(struct mesh *m)
     m->n_nodes = 1;
     grow(m, 0, leaf, 0, m->n);
     struct triangle *const sorted = xalloc((size_t)m->n, sizeof *sorted);
-    for (int i = 0; i < m->n; i++)
+    int *const patch = xalloc((size_t)m->n, sizeof *patch);
+    for (int i = 0; i < m->n; i++) {
         sorted[i] = m->triangle[leaf[i].index];
+        patch[i] = m->patch[leaf[i].index];
+    }
     xfree(m->triangle);
+    xfree(m->patch);
     m->triangle = sorted;
+    m->patch = patch;
     xfree(leaf);
 }
 
@@ -223,6 +138,7 @@ struct mesh *mesh_create(const vec3 *corner, int n, char **why)
         mesh_free(m);
         return NULL;
     }
+    mesh_sew(m, corner);
     plant(m);
     const struct mesh_node *const root = &m->node[0];
     m->low = v3(root->low[0], root->low[1], root->low[2]);
@@ -236,6 +152,7 @@ void mesh_free(void *mesh)
     if (!m)
         return;
     xfree(m->triangle);
+    xfree(m->patch);
     xfree(m->node);
     xfree(m);
 }

@@ -17,12 +17,16 @@ static void nearest(const struct domain *d, struct wall_looks *l, double (*middl
     }
 }
 
+/* The middles of the elements, m; `point`: these, or NULL. */
 static void middles(const struct wall *w, const struct wall_looks *l,
-                    double (*middle)[WALL_LOOKS])
+                    const double (*point)[WALL_LOOKS], double (*middle)[WALL_LOOKS])
 {
     const vec3 pivot = w->motion.pivot;
     for (int c = 0; c < l->n; c++) {
-        vec3 m = w->kind->middle ? w->kind->middle(w->shape, l->element[c]) : w->middle;
+        vec3 m = w->middle;
+        if (w->kind->middle)
+            m = point ? v3(point[0][c], point[1][c], point[2][c])
+                      : w->kind->middle(w->shape, l->element[c]);
         if (w->pose.turned)
             m = v3_add(pivot, pose_turn(&w->pose, v3_sub(m, pivot)));
         middle[0][c] = m.x;
@@ -72,8 +76,8 @@ static void by_one(const struct wall *w, struct wall_looks *l)
     }
 }
 
-void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
-                double (*arm)[WALL_LOOKS])
+static void come_in(const struct sim *s, const struct wall *w, struct wall_looks *l,
+                    const double (*point)[WALL_LOOKS])
 {
     const struct wall_pose *const p = &w->pose;
     const vec3 pivot = w->motion.pivot;
@@ -81,7 +85,7 @@ void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
         shift(l->n, v3_scale(-1.0, p->shift), l->x, l->y, l->z);
     if (s->walls.periodic) {
         double middle[3][WALL_LOOKS];
-        middles(w, l, middle);
+        middles(w, l, point, middle);
         nearest(&s->domain, l, middle);
     }
     if (p->turned) {
@@ -89,11 +93,12 @@ void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
         turn(p->turn, true, l->n, l->x, l->y, l->z);
         shift(l->n, pivot, l->x, l->y, l->z);
     }
-    memset(l->seam, 0, sizeof l->seam);
-    if (w->kind->views)
-        w->kind->views(w->shape, l);
-    else
-        by_one(w, l);
+}
+
+static void go_out(const struct wall *w, struct wall_looks *l, double (*arm)[WALL_LOOKS])
+{
+    const struct wall_pose *const p = &w->pose;
+    const vec3 pivot = w->motion.pivot;
 #pragma omp simd
     for (int c = 0; c < l->n; c++) {
         arm[0][c] = l->x[c] - pivot.x;
@@ -104,4 +109,35 @@ void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
         turn(p->turn, false, l->n, l->ax, l->ay, l->az);
         turn(p->turn, false, l->n, arm[0], arm[1], arm[2]);
     }
+}
+
+void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
+                double (*arm)[WALL_LOOKS])
+{
+    come_in(s, w, l, NULL);
+    memset(l->hollow, 0, sizeof l->hollow);
+    if (w->kind->views)
+        w->kind->views(w->shape, l);
+    else
+        by_one(w, l);
+    go_out(w, l, arm);
+}
+
+void walls_look_flat(const struct sim *s, const struct wall *w,
+                     const double (*plane)[WALL_LOOKS], struct wall_looks *l,
+                     double (*arm)[WALL_LOOKS])
+{
+    come_in(s, w, l, plane);
+#pragma omp simd
+    for (int c = 0; c < l->n; c++) {
+        const double x = l->x[c] - plane[0][c], y = l->y[c] - plane[1][c];
+        const double z = l->z[c] - plane[2][c];
+        const double nx = plane[3][c], ny = plane[4][c], nz = plane[5][c];
+        const double h = x * nx + y * ny + z * nz;
+        l->ax[c] = h * nx;
+        l->ay[c] = h * ny;
+        l->az[c] = h * nz;
+        l->curvature[c] = 0.0;
+    }
+    go_out(w, l, arm);
 }

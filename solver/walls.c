@@ -205,6 +205,22 @@ struct wall_seen wall_see(const struct sim *s, int element, vec3 x)
     return seen;
 }
 
+bool wall_flat_at(const struct sim *s, int element, vec3 x, struct wall_flat *plane,
+                  double *within)
+{
+    const int k = s->walls.wall_of[element], local = element - s->walls.first[k];
+    const struct wall *const w = &s->walls.wall[k];
+    const vec3 in = into_frame(s, w, local, x);
+    return w->kind->flat && w->kind->flat(w->shape, local, &in, plane, within);
+}
+
+int wall_patch(const struct sim *s, int element)
+{
+    const int k = s->walls.wall_of[element];
+    const struct wall *const w = &s->walls.wall[k];
+    return w->kind->patch ? w->kind->patch(w->shape, element - s->walls.first[k]) : -1;
+}
+
 int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4])
 {
     const int k = s->walls.wall_of[element], local = element - s->walls.first[k];

@@ -68,6 +68,16 @@ void wall_look(const struct sim *s, int element, const vec3 *x, struct wall_seen
  * the laboratory, which are overwritten: away, curvature and part; arms, m. */
 void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
                 double (*arm)[WALL_LOOKS]);
+/* Whether an element is flat; then its plane in the frame of the wall, the middle of the element in it, and how
+ * far from its rim the foot of x lies on its face (m; negative: it does not). */
+bool wall_flat_at(const struct sim *s, int element, vec3 x, struct wall_flat *plane,
+                  double *within);
+int wall_patch(const struct sim *s, int element); /* negative: its own (wall_kind.h) */
+/* The same of faces that the points are above, by their planes: x y z of a point, of the unit normal; part
+ * and hollow stay. */
+void walls_look_flat(const struct sim *s, const struct wall *w,
+                     const double (*plane)[WALL_LOOKS], struct wall_looks *l,
+                     double (*arm)[WALL_LOOKS]);
 /* Corners of a flat element, m, as seen from x; returns how many, 0 for other elements. */
 int wall_corners(const struct sim *s, int element, vec3 x, vec3 out[4]);
 

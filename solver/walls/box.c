@@ -82,6 +82,14 @@ static void views(const void *shape, struct wall_looks *l)
     }
 }
 
+static bool flat(const void *shape, int element, const vec3 *x, struct wall_flat *plane,
+                 double *within)
+{
+    vec3 edge[2];
+    const vec3 at = corner(shape, element, edge);
+    return wall_rectangle_flat(&at, &edge[0], &edge[1], x, plane, within);
+}
+
 static bool behind(const void *shape, vec3 x)
 {
     const struct box *const b = shape;
@@ -118,6 +126,7 @@ const struct wall_kind wall_box = {.name = "box",
                                    .elements = elements,
                                    .view = view,
                                    .views = views,
+                                   .flat = flat,
                                    .behind = behind,
                                    .bounds = bounds,
                                    .draw = draw};

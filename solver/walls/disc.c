@@ -31,6 +31,13 @@ static void views(const void *shape, struct wall_looks *l)
     wall_strip_views(shape, l);
 }
 
+static bool flat(const void *shape, int element, const vec3 *x, struct wall_flat *plane,
+                 double *within)
+{
+    (void)element;
+    return wall_strip_flat(shape, x, plane, within);
+}
+
 static void bounds(const void *shape, vec3 *low, vec3 *high)
 {
     wall_strip_bounds(shape, low, high);
@@ -55,6 +62,7 @@ const struct wall_kind wall_disc = {.name = "disc",
                                     .elements = wall_single,
                                     .view = view,
                                     .views = views,
+                                    .flat = flat,
                                     .bounds = bounds,
                                     .sweep = sweep,
                                     .draw = draw};

@@ -73,7 +73,18 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
 
 static void views(const void *shape, struct wall_looks *l)
 {
-    triangle_views(((const struct mesh *)shape)->triangle, l);
+    mesh_views(shape, l);
+}
+
+static int patch(const void *shape, int element)
+{
+    return ((const struct mesh *)shape)->patch[element];
+}
+
+static bool flat(const void *shape, int element, const vec3 *x, struct wall_flat *plane,
+                 double *within)
+{
+    return triangle_flat(&((const struct mesh *)shape)->triangle[element], x, plane, within);
 }
 
 static void near(const void *shape, vec3 x, double reach, struct found *out)
@@ -121,6 +132,8 @@ const struct wall_kind wall_mesh = {.name = "mesh",
                                     .elements = elements,
                                     .view = view,
                                     .views = views,
+                                    .patch = patch,
+                                    .flat = flat,
                                     .near = near,
                                     .bounds = bounds,
                                     .middle = middle,

@@ -41,6 +41,14 @@ static void views(const void *shape, struct wall_looks *l)
     wall_rectangle_views(&p->corner, &p->edge[0], &p->edge[1], l);
 }
 
+static bool flat(const void *shape, int element, const vec3 *x, struct wall_flat *plane,
+                 double *within)
+{
+    const struct plate *const p = shape;
+    (void)element;
+    return wall_rectangle_flat(&p->corner, &p->edge[0], &p->edge[1], x, plane, within);
+}
+
 static void bounds(const void *shape, vec3 *low, vec3 *high)
 {
     const struct plate *const p = shape;
@@ -78,6 +86,7 @@ const struct wall_kind wall_rectangle = {.name = "rectangle",
                                          .elements = wall_single,
                                          .view = view,
                                          .views = views,
+                                         .flat = flat,
                                          .corners = corners,
                                          .bounds = bounds,
                                          .draw = draw};

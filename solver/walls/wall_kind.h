@@ -50,10 +50,6 @@ struct wall_canvas {
     vec3 low, high;
 };
 
-/* At an edge or vertex that neighbours share a ball may be nearer to one of these: always where the
- * surface goes on flat, and on its hollow side. */
-enum wall_seam { SEAM_NONE, SEAM_FLAT, SEAM_HOLLOW };
-
 /* Elements of one wall as seen each from a point of its own; in the frame of the wall. */
 enum { WALL_LOOKS = 32 };
 struct wall_looks {
@@ -63,8 +59,14 @@ struct wall_looks {
     double ax[WALL_LOOKS], ay[WALL_LOOKS], az[WALL_LOOKS];           /* m, away */
     double curvature[WALL_LOOKS];                                    /* 1/m */
     int part[WALL_LOOKS];                                            /* enum wall_part */
-    int seam
-        [WALL_LOOKS]; /* enum wall_seam, of a kind that knows its elements' neighbours; comes as 0 */
+    /* The nearest point lies on an edge that is shared with a neighbour, and the point seen from is on
+     * the hollow side of the two: the neighbour is nearer. Comes as 0. */
+    int hollow[WALL_LOOKS];
+};
+
+/* A plane without end; grains are on the side of its normal. */
+struct wall_flat {
+    vec3 point, normal; /* m; unit */
 };
 
 struct wall_kind {
@@ -92,6 +94,12 @@ struct wall_kind {
     /* The corners of a flat element with straight edges, in order; returns how many (3 or 4). NULL:
      * there are none. */
     int (*corners)(const void *shape, int element, vec3 out[4]);
+    /* Flat elements that lie in one plane and join have one number. NULL: each has its own. */
+    int (*patch)(const void *shape, int element);
+    /* Whether an element is flat; then its plane (`point`: the middle of the element) and how far from its rim
+     * the foot of x lies on its face, m; negative: it does not. NULL: none is. */
+    bool (*flat)(const void *shape, int element, const vec3 *x, struct wall_flat *plane,
+                 double *within);
     /* Largest distance of its points from the axis of a turn; 0 where the turn maps it onto
      * itself. NULL: from its bounds. */
     double (*sweep)(const void *shape, vec3 point, vec3 axis);
@@ -107,10 +115,6 @@ vec3 wall_unit_vector(struct scene *scene, const char *name, const char *key);
 
 /* A sphere touching a ring, a segment, a disc: helpers of the kinds. */
 
-/* A plane without end; grains are on the side of its normal. */
-struct wall_flat {
-    vec3 point, normal; /* m; unit */
-};
 int wall_single(const void *shape); /* one element */
 void wall_flat_view(const void *flat, int element, const vec3 *x, struct wall_view *out);
 void wall_flat_views(const void *flat, struct wall_looks *l);
@@ -126,6 +130,9 @@ void wall_rectangle_view(const vec3 *origin, const vec3 *e1, const vec3 *e2, con
 void wall_rectangle_views(const vec3 *origin, const vec3 *e1, const vec3 *e2,
                           struct wall_looks *l);
 
+bool wall_rectangle_flat(const vec3 *origin, const vec3 *e1, const vec3 *e2, const vec3 *x,
+                         struct wall_flat *plane, double *within);
+
 /* Of the strip of revolution through (h0, r0) and (h1, r1) in heights along the axis from `foot`
  * and radii: a disc, tube or frustum. */
 struct wall_strip {
@@ -135,6 +142,8 @@ struct wall_strip {
 void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out);
 /* Of strips that share foot and axis: element k is strip[k]. */
 void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l);
+bool wall_strip_flat(const struct wall_strip *s, const vec3 *x, struct wall_flat *plane,
+                     double *within); /* of a disc */
 void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c);
 void wall_strip_bounds(const struct wall_strip *s, vec3 *low, vec3 *high);
 double wall_strip_sweep(const struct wall_strip *s, vec3 point, vec3 axis);
