@@ -244,10 +244,12 @@ static void decide(const struct crowds *all, const struct wall_crowd *crowd)
 /* Whether the foot of a ball lies on this face until the slots are chosen anew. */
 static bool stays(const struct sim *s, const struct wall_entry *e, vec3 centre)
 {
+    const struct neighbours *const nb = &s->neighbours;
+    const double way = neighbours_inner_wall(nb, nb->walls.owner[e->slot]) - nb->reach;
     struct wall_flat plane;
     double within;
-    return wall_flat_at(s, s->neighbours.walls.other[e->slot], centre, &plane, &within) &&
-           within > ROOM * s->neighbours.inner;
+    return wall_flat_at(s, nb->walls.other[e->slot], centre, &plane, &within) &&
+           within > ROOM * way;
 }
 
 /* Another element of a patch of which a face is sure. */
