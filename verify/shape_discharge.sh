@@ -3,26 +3,25 @@
 # flat-bottomed hopper on to a floor: rate of discharge and angle of the heap [LiLiuJi23, figs 13 to 15];
 # out/shape_discharge/discharge.png. The paper: the hollow ones run fastest and lie flattest, the
 # dolos-like ones run slowest and lie steepest; its other two shapes are in pictures alone.
-# COUNT is 200; FULL=1: the paper's 4,000 in a hopper of 24 x 24 m (its L0 : W0 : H0 = 2 : 2 : 1, heaped to 12 m) over
-# 8 x 8 m; fewer: a hopper less wide, an opening of 8 m times the cube root of their part, at least 5 m.
+# COUNT is 400; FULL=1: the paper's 4,000 in a hopper of 24 x 24 m (its L0 : W0 : H0 = 2 : 2 : 1, filled to about 12 m)
+# over 8 x 8 m. Fewer: a hopper less wide by the cube root, an opening of no more than 0.55 of it.
 # Ours: edges of 6 cm (2 cm there) at 0.2 GPa (10 there), for steps ten times as long: overlaps must stay below the edges'.
 #
 # Rate: between the times when a fifth and 7 tenths of those that leave have left; its spread that of four parts of that
 # time. Angle: the program's own ([surface], kind = heap); its spread that of the four quarters of the heap. A shape that is there from an earlier call with the same settings is taken as it is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-count=${1:-$([ -n "${FULL:-}" ] && echo 4000 || echo 200)}
+count=${1:-$([ -n "${FULL:-}" ] && echo 4000 || echo 400)}
 seed=${2:-1}
 shapes=${SHAPES:-hollow_box dolos tetrapod cross}
 out=out/shape_discharge
 mkdir -p "$out"
 make -s build/release/verify/boxes_in_air
 # m, s: the hopper, its floor's height, the opening, how high its grains start, box, gate, after it
-eval "$(awk -v n="$count" 'BEGIN { k = (n / 4000) ^ (1 / 3); wide = 24 * k; open = 8 * k; if (open < 5) open = 5
-    if (wide < open + 4) wide = open + 4
-    floor = 13 * k + 1; air = n / (0.26 * wide * wide) + 1
+eval "$(awk -v n="$count" 'BEGIN { k = (n / 4000) ^ (1 / 3); wide = 24 * k; open = 0.55 * wide; if (open > 8) open = 8
+    floor = 13 * k + 2; air = n / (0.26 * wide * wide) + 1
     printf "wide=%.3f floor=%.3f open=%.3f air=%.3f box=%.3f gate=%.2f run=%.2f", wide, floor, open, air,
-        52 * k + 4, sqrt(2 * air / 9.81) + 1.2, 5 + 18 * k }')"
+        52 * k + 4, sqrt(2 * air / 9.81) + 1.2, 4 + 12 * k }')"
 run=${AFTER:-$run}
 
 series() { # VARIABLE FILE, one a line
@@ -62,7 +61,7 @@ poisson     = 0.3
 friction    = 0.3
 restitution = 0.3
 [meter opening]
-point  = 0 0 $(sub "$floor" 0.3) m
+point  = 0 0 $(sub "$floor" 1.3) m
 normal = 0 0 -1
 [output]
 series = 20 ms
@@ -79,12 +78,17 @@ END
     plate x2 "$d $a $floor" "0 $wide 0" "0 0 $air"
     plate y1 "$a $a $floor" "$wide 0 0" "0 0 $air"
     plate y2 "$a $d $floor" "$wide 0 0" "0 0 $air"
+    # the opening is as deep as a grain: arms do not hook under its edge
+    plate c1 "$b $b $floor" "0 $open 0" "0 0 -1"
+    plate c2 "$c $b $floor" "0 $open 0" "0 0 -1"
+    plate c3 "$b $b $floor" "$open 0 0" "0 0 -1"
+    plate c4 "$b $c $floor" "$open 0 0" "0 0 -1"
     plate gate "$b $b $floor" "$open 0 0" "0 $open 0"
     printf 'velocity = 0 0 -40 m/s\nstart = %s s\nstop = %s s\n' "$gate" "$(awk -v g="$gate" 'BEGIN { print g + 1 }')"
     for quarter in "sw 0 0 $m $m" "se $m 0 $box $m" "nw 0 $m $m $box" "ne $m $m $box $box" "heap 0 0 $box $box"; do
         read -r name x0 y0 x1 y1 <<< "$quarter"
         printf '[surface %s]\nkind = heap\nfrom = %s %s 0 m\nto = %s %s %s m\n' "$name" "$x0" "$y0" "$x1" "$y1" \
-            "$(sub "$floor" 0.3)"
+            "$(sub "$floor" 1.3)"
     done
 }
 
@@ -115,7 +119,7 @@ discharge() { # FORM
         for q in sw se nw ne; do sed -n "s/^${q}_angle = \([^ ]*\).*/\1/p" "$dir/summary.txt"; done |
             awk -v whole="$(sed -n 's/^heap_angle = \([^ ]*\).*/\1/p' "$dir/summary.txt")" '
                 $1 == $1 + 0 { s += $1; q += $1 * $1; n++ }
-                END { printf "%.2f %.2f\n", whole, n > 1 ? sqrt((q - s * s / n) / (n - 1)) : 0 }'
+                END { printf "%s %.2f\n", whole == "" ? "nan" : sprintf("%.2f", whole), (n > 1 ? sqrt((q - s * s / n) / (n - 1)) : 0) }'
         echo "# $(grep -m 1 -o '^silt [^,]*' "$dir.log"), $(sed -n 's/^wall_time = //p' "$dir/summary.txt")"
     } > "$dir.part"
     mv "$dir.part" "$dir.txt"
