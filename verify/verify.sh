@@ -7,7 +7,8 @@
 #   lid-driven cavities; the noise of the pressure when a grain crosses faces of cells
 #   Beverloo's 5/2 power (beverloo.sh); a sandpile with three models of rolling (sandpile.sh)
 #   every law of drag: its terminal velocity, its error against measured ones, its picture
-#   grains of other shapes: long runs, packings, hoppers (dilated.sh, ellipsoids.sh, letters.sh, shape_hoppers.sh)
+#   grains of other shapes: long runs, packings, hoppers (dilated.sh, ellipsoids.sh, letters.sh,
+#     shape_discharge.sh, shape_hoppers.sh)
 #   the tests of all modules, in release builds, with every value that they compare
 #   what each scene's binary holds, and what that saves (minimal.sh); the studies
 #   pressure noise and self-disturbance of every porosity answer (coupling.sh)
@@ -119,6 +120,7 @@ value() {
     section polyhedra_packing "How densely cubes and octahedra without friction pack" \
         timeout 1200 verify/polyhedra_packing.sh
     section letters "How densely letters pack" timeout 1200 verify/letters.sh
+    section shape_discharge "Four shapes run out of a hopper: rate, angle of the heap" timeout 2400 verify/shape_discharge.sh
     section shape_hoppers "Prisms and cone pairs run out of a hopper: fraction left" timeout 3600 verify/shape_hoppers.sh
     section tests "Tests of all modules" tests
     echo
