@@ -66,7 +66,7 @@ void dilated_make_shadows(struct dilated *d);
 /* Points of contact of a pair, see shapes/shape.h. The memory: how far apart pairs of parts are, the first
  * DILATED_LEFT of them, a real each; then DILATED_MEMORY reals for each of `kept` pairs of parts. One
  * part a body: the latter alone, once. */
-enum { DILATED_LEFT = 144, DILATED_KEPT = 16, DILATED_MEMORY = 7 };
+enum { DILATED_LEFT = 144, DILATED_KEPT = 36, DILATED_MEMORY = 7 };
 int dilated_points(const struct dilated *i, const struct dilated *j,
                    const struct detection *how, const struct shape_pair *p, int kept, int most,
                    struct shape_point *out);
