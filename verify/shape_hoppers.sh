@@ -3,17 +3,19 @@
 # figs 6 to 9], 1,000 grains, each from FILLINGS random fillings (5): the fraction of grains left in it against time
 # as a band, when the flow stood still, what stayed; out/shape_hoppers/hoppers.png.
 # The paper: prisms (convex) form arches near 1.6 and 2.4 s that collapse; cone pairs (concave) a lasting one near 0.8 s.
-# As the scenes have them, with edges of 1 mm at 10 MPa: some five minutes of one core a filling, JOBS (all cores)
-# fillings at a time. FULL=1: edges of 0.3 mm at 30 MPa (0.1 mm and 1 GPa there), three times as long.
+# As the scenes have them, with edges of 0.3 mm at 10 MPa (0.1 mm and 1 GPa there): some five minutes of one core a
+# filling, JOBS (all cores) fillings at a time. FULL=1: 30 MPa and half the steps.
 # A filling that is there from an earlier call is taken as it is (its program's version is printed), so a call that was
 # interrupted goes on; rm -r out/shape_hoppers begins anew.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fillings=${1:-5}
 out=out/shape_hoppers${FULL:+_full}
-scenes=("prism_hopper prisms 2.5" "cone_pair_hopper pairs 1.25") # and the time after the gate, s
-gate=0.75                                                        # s
-still=0.15                                                       # s without a grain: the flow stands still
+scenes=("prism_hopper prisms 2.5" "cone_pair_hopper pairs 1.1") # and the time after the gate, s
+gate=0.75                                                       # s
+still=0.15                                                      # s without a grain at the end: it is at rest
+pause=0.05                                                      # s without a grain: ten or twenty would have left
+heaps=0.2                                                       # of all; about as many can lie beside the slot
 mkdir -p "$out"
 
 series() { # VARIABLE FILE, one a line
@@ -28,7 +30,7 @@ stamp() { # SCENE SECONDS
 # One filling: OUT/NAME.K.left, lines "s after the gate, fraction left".
 filling() { # SCENE SPECIES SECONDS K
     local scene=$1 species=$2 k=$4 dir=$out/$1.$4 file=$out/$1.$4.left full=()
-    [ -z "${FULL:-}" ] || full=("grains $species.dilation=0.3 mm" "material plastic.young=30 MPa")
+    [ -z "${FULL:-}" ] || full=("material plastic.young=30 MPa" "run.safety=0.2")
     [ -e "$file" ] && [ "$(head -n 1 "$file")" = "$(stamp "$scene" "$3")" ] && return
     ./run.sh "scenes/$scene.ini" "run.seed=$k" "run.end=$(awk -v g=$gate -v s="$3" 'BEGIN { print g + s }') s" \
         "${full[@]}" -o "$dir" -j 1 > "$dir.log" 2>&1 || { tail -n 3 "$dir.log"; return 1; }
@@ -43,14 +45,20 @@ filling() { # SCENE SPECIES SECONDS K
     rm -f "$dir/run.nc"
 }
 
-# Of one filling: the times in which nothing left, and how it ends.
-stops() { # FILE
-    awk -v still=$still '/^#/ { next }
-        { if (!n++ || $2 < left) { if (n > 1 && $1 - since >= still) text = text sprintf(" %.2f to %.2f s,", since, $1)
+# Of one filling: when nothing left for a while though more lay there than the heaps beside the slot and the flow went on
+# later, and how it ends; or, with `numbers`, how many such times, 1 if it ends at rest, when the last grain left, the
+# fraction left.
+stops() { # FILE [numbers]
+    awk -v still=$still -v pause=$pause -v heaps=$heaps -v numbers="${2:-}" '/^#/ { next }
+        { if (!n++ || $2 < left) {
+              if (n > 1 && since > 0 && $1 - since >= pause && left > heaps) {
+                  text = text sprintf(" %.2f to %.2f s,", since, $1); stops++ }
               since = $1; left = $2 }
           t = $1 }
-        END { printf "%s at the end %.3f left", text, left
-              if (t - since >= still) printf ", at rest since %.2f s", since; else printf ", still running" }' "$1"
+        END { rest = t - since >= still
+              if (numbers) { printf "%d %d %.3f %.4f\n", stops, rest, since, left; exit }
+              printf "%s at the end %.3f left", text ? text : " at no time,", left
+              if (rest) printf ", at rest since %.2f s", since; else printf ", still running" }' "$1"
 }
 
 # Least, mean and most of several series, every 0.02 s.
@@ -88,7 +96,13 @@ for k in $(seq "$fillings"); do
     done
 done
 while [ "$(jobs -rp | wc -l)" -gt 0 ]; do wait -n || exit 1; done
-echo "1,000 grains, edges of $([ -n "${FULL:-}" ] && echo "0.3 mm, 30 MPa" || echo "1 mm, 10 MPa"); the paper: 0.1 mm, 1 GPa"
+passed=0
+failed=0
+say() { # TRUE TEXT
+    if [ "$1" = 1 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    echo "$([ "$1" = 1 ] && echo "ok  " || echo FAIL) $2"
+}
+echo "1,000 grains, edges of 0.3 mm, $([ -n "${FULL:-}" ] && echo 30 || echo 10) MPa; the paper: 0.1 mm, 1 GPa"
 for of in "${scenes[@]}"; do
     read -r scene species seconds <<< "$of"
     files=()
@@ -96,6 +110,7 @@ for of in "${scenes[@]}"; do
         files+=("$out/$scene.$k.left")
         echo "$scene, filling $k: stood still$(stops "$out/$scene.$k.left") ($(sed -n '2s/# //p' "$out/$scene.$k.left"))"
     done
+    for file in "${files[@]}"; do stops "$file" numbers; done > "$out/$scene.ends"
     band "${files[@]}" > "$out/$scene.band"
     echo "$scene: s after the gate, fraction left: least, mean, most of $fillings fillings"
     awk 'NR % 10 == 1' "$out/$scene.band" | sed 's/^/  /'
@@ -120,3 +135,16 @@ $(panel cone_pair_hopper 'cone pairs (dotted: the lasting arch of the paper)')
 unset multiplot
 END
 echo "picture: $out/hoppers.png"
+# What the paper says of its figures 7 to 9.
+read -r good n <<< "$(awk '$2 { n++ } END { print n == NR, n + 0 }' "$out/cone_pair_hopper.ends")"
+say "$good" "cone pairs: a lasting arch in $n of $fillings fillings (the paper: all)"
+read -r good t low high <<< "$(awk '{ sum += $3; low = NR == 1 || $3 < low ? $3 : low; high = $3 > high ? $3 : high }
+    END { m = sum / NR; printf "%d %.2f %.2f %.2f", m > 0.4 && m < 1.2, m, low, high }' "$out/cone_pair_hopper.ends")"
+say "$good" "cone pairs: the last grain leaves after $t s, mean of $low to $high s (the paper: near 0.8 s; half of it either way)"
+read -r good n <<< "$(awk '{ n += $1 > 0 } END { print n > 0, n }' "$out/prism_hopper.ends")"
+say "$good" "prisms: an arch that collapses (nothing leaves for $pause s, then the flow goes on) in $n of $fillings fillings (the paper: near 1.6 and 2.4 s)"
+read -r good prisms pairs <<< "$(paste "$out/prism_hopper.ends" "$out/cone_pair_hopper.ends" |
+    awk '{ a += $4; b += $8 } END { printf "%d %.3f %.3f", a < b, a / NR, b / NR }')"
+say "$good" "fewer prisms stay than pairs: $prisms against $pairs of all"
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
