@@ -25,88 +25,195 @@ typedef double double4 __attribute__((vector_size(4 * sizeof(double))));
 typedef double double8 __attribute__((vector_size(8 * sizeof(double))));
 
 struct body {
-    coordinate4 place; /* x y z, and nothing */
+    coordinate4 place; /* x y z; in double 1/(kg m2), 0 if frozen */
     real4 full;        /* m/s predicted for the full step; index of the material */
     real4 vel;         /* m/s at the half step; 1/mass, 0 if frozen */
     real4 spin;        /* rad/s at the half step; bounding radius, m */
 };
 
-/* Position, and velocity and spin with what stands behind them in a body. */
+#ifdef SILT_FLOAT
+enum { BODY_IS_FLOAT = 1 };
+typedef int64_t fine4 __attribute__((vector_size(4 * sizeof(int64_t)))); /* 2^-32 steps */
+
+typedef uint32_t uint4 __attribute__((vector_size(4 * sizeof(uint32_t))));
+
+/* What the motion knows of a grain beyond its body, so that its state is good to 48 bits and more. */
+struct body_rest {
+    uint4 place;     /* 2^-32 steps of the place */
+    real4 vel, spin; /* what the body's leave of the velocity and spin */
+    double mass[2];  /* 1/kg, 1/(kg m2); 0 if frozen */
+} __attribute__((aligned(64)));
+#else
+enum { BODY_IS_FLOAT = 0 };
+typedef double4 fine4; /* m */
+
+struct body_rest {
+    char nothing;
+};
+#endif
+
+/* The state of a grain within the steps of a call. */
 struct motion_state {
-    double4 pos;
-    double8 vel_spin;
+    fine4 place;       /* in double, 1/(kg m2) behind */
+    double4 vel, spin; /* with what stands behind them in a body */
 };
 
 /* How places are written and their differences read back, from the box. */
 struct frame {
-    double4 origin, per_metre;   /* float: place = (x - origin) per_metre */
+    double4 origin;              /* float: place = (x - origin) per_metre */
+    double4 per_metre, fine;     /* float: steps, 2^-32 steps, of a metre */
+    double4 metre;               /* float: of a 2^-32 step */
     real scale[3];               /* m per step of a difference; 1 in double */
     real image[3], inv_image[3]; /* nearest image of a difference; 0 where not needed */
 };
 
 void frame_of(struct frame *f, const struct domain *d);
 
-/* The place at x y z and 0. */
-static inline coordinate4 frame_place(const struct frame *f, double4 x)
+/* The place at x y z, m; what stands behind stays. */
+static inline fine4 frame_place(const struct frame *f, double4 x)
 {
 #ifdef SILT_FLOAT
-    typedef int64_t long4 __attribute__((vector_size(4 * sizeof(int64_t))));
-    const long4 steps = __builtin_convertvector((x - f->origin) * f->per_metre, long4);
-    return __builtin_convertvector(steps, coordinate4); /* the lower halves: it goes round */
+    const double4 steps = (x - f->origin) * f->per_metre;
+    fine4 whole = __builtin_convertvector(steps, fine4);
+    const double4 part = (steps - __builtin_convertvector(whole, double4)) * 0x1p32;
+    return (whole << 32) + __builtin_convertvector(part, fine4); /* it goes round */
 #else
     (void)f;
     return x;
 #endif
 }
 
-/* Within the steps of a call the velocities are those of the bodies in double, which hold them in
- * full, and those of the arrays, kept up beside the bodies, in float. */
-#ifdef SILT_FLOAT
-enum { BODY_IS_FLOAT = 1 };
-#else
-enum { BODY_IS_FLOAT = 0 };
-#endif
-
-static inline struct motion_state body_state(const struct body *b, const vec3 *pos,
-                                             const vec3 *vel, const vec3 *spin)
+/* m; x y z of a place. */
+static inline double4 frame_metres(const struct frame *f, fine4 place)
 {
-    struct motion_state m = {.pos = {pos->x, pos->y, pos->z, 0.0}};
-    if (BODY_IS_FLOAT) {
-        m.vel_spin = (double8){vel->x,  vel->y,  vel->z,  (double)b->vel[3],
-                               spin->x, spin->y, spin->z, (double)b->spin[3]};
-    } else {
-        real8 vel_spin;
-        __builtin_memcpy(&vel_spin, &b->vel, sizeof vel_spin);
-        m.vel_spin = __builtin_convertvector(vel_spin, double8);
-    }
+#ifdef SILT_FLOAT
+    return f->origin + __builtin_convertvector(place, double4) * f->metre;
+#else
+    (void)f;
+    return place;
+#endif
+}
+
+/* A way, m, 0 behind, as a difference of places. */
+static inline fine4 frame_way(const struct frame *f, double4 way)
+{
+#ifdef SILT_FLOAT
+    return __builtin_convertvector(way * f->fine, fine4);
+#else
+    (void)f;
+    return way;
+#endif
+}
+
+/* Spelt out, since gcc 12 makes two conversions and more of __builtin_convertvector here. */
+static inline double4 body_wide(real4 a)
+{
+    return (double4){(double)a[0], (double)a[1], (double)a[2], (double)a[3]};
+}
+
+static inline struct motion_state body_state(const struct body *b, const struct body_rest *r)
+{
+    struct motion_state m = {.vel = body_wide(b->vel), .spin = body_wide(b->spin)};
+#ifdef SILT_FLOAT
+    const coordinate4 high = b->place;
+    const uint4 low = r->place;
+    m.place = ((fine4){high[0], high[1], high[2], high[3]} << 32) +
+              (fine4){low[0], low[1], low[2], low[3]};
+    m.vel += body_wide(r->vel);
+    m.spin += body_wide(r->spin);
+#else
+    (void)r;
+    m.place = b->place;
+#endif
     return m;
 }
 
-static inline vec3 motion_pos(const struct motion_state *m)
+/* 1/kg, 1/(kg m2) of a grain. */
+static inline double body_per_mass(const struct body *b, const struct body_rest *r)
 {
-    return v3(m->pos[0], m->pos[1], m->pos[2]);
+#ifdef SILT_FLOAT
+    (void)b;
+    return r->mass[0];
+#else
+    (void)r;
+    return b->vel[3];
+#endif
+}
+
+static inline double body_per_inertia(const struct body *b, const struct body_rest *r)
+{
+#ifdef SILT_FLOAT
+    (void)b;
+    return r->mass[1];
+#else
+    (void)r;
+    return b->place[3];
+#endif
+}
+
+static inline vec3 motion_pos(const struct frame *f, const struct motion_state *m)
+{
+    const double4 x = frame_metres(f, m->place);
+    return v3(x[0], x[1], x[2]);
 }
 
 static inline vec3 motion_vel(const struct motion_state *m)
 {
-    return v3(m->vel_spin[0], m->vel_spin[1], m->vel_spin[2]);
+    return v3(m->vel[0], m->vel[1], m->vel[2]);
 }
 
 static inline vec3 motion_spin(const struct motion_state *m)
 {
-    return v3(m->vel_spin[4], m->vel_spin[5], m->vel_spin[6]);
+    return v3(m->spin[0], m->spin[1], m->spin[2]);
 }
 
-/* Writes the body of a grain in that state; `full`: velocity predicted for the full step, and the
- * material. */
-static inline void body_write(struct body *b, const struct frame *f,
-                              const struct motion_state *m, double4 full)
+static inline void body_set_spin(struct body *b, struct body_rest *r, vec3 spin)
 {
-    real8 vel_spin;
-    b->place = frame_place(f, m->pos);
-    b->full = __builtin_convertvector(full, real4);
-    vel_spin = __builtin_convertvector(m->vel_spin, real8);
-    __builtin_memcpy(&b->vel, &vel_spin, sizeof vel_spin);
+    const double exact[3] = {spin.x, spin.y, spin.z};
+    for (int a = 0; a < 3; a++) {
+        b->spin[a] = (real)exact[a];
+#ifdef SILT_FLOAT
+        r->spin[a] = (real)(exact[a] - (double)b->spin[a]);
+#else
+        (void)r;
+#endif
+    }
+}
+
+/* Both at once, where the state does not hold them. */
+static inline void body_masses(struct body_rest *r, double per_mass, double per_inertia)
+{
+#ifdef SILT_FLOAT
+    r->mass[0] = per_mass;
+    r->mass[1] = per_inertia;
+#else
+    (void)r;
+    (void)per_mass;
+    (void)per_inertia;
+#endif
+}
+
+/* Writes the body of a grain in that state, but for its material; `full`: velocity predicted for the
+ * full step. */
+static inline void body_write(struct body *b, struct body_rest *r, const struct motion_state *m,
+                              double4 full)
+{
+    const real4 vel = __builtin_convertvector(m->vel, real4);
+    const real4 spin = __builtin_convertvector(m->spin, real4);
+    real4 predicted = __builtin_convertvector(full, real4);
+    predicted[3] = b->full[3];
+    b->full = predicted;
+    b->vel = vel;
+    b->spin = spin;
+#ifdef SILT_FLOAT
+    b->place = __builtin_convertvector(m->place >> 32, coordinate4);
+    r->place = __builtin_convertvector(m->place, uint4);
+    r->vel = __builtin_convertvector(m->vel - body_wide(vel), real4);
+    r->spin = __builtin_convertvector(m->spin - body_wide(spin), real4);
+#else
+    (void)r;
+    b->place = m->place;
+#endif
 }
 
 /* Place of i less that of j in one direction, in steps of the frame; in single precision places are
@@ -135,6 +242,12 @@ static inline real8 body_apart(const struct body *i, const struct body *j)
     return a - b;
 #endif
 }
+
+/* The state of grain i by the arrays of the grains. */
+struct motion_state bodies_state(const struct sim *s, int i);
+
+/* Writes body i in that state, with full = vel. */
+void bodies_write(struct sim *s, int i, const struct motion_state *m);
 
 /* Writes every body from the arrays of the grains, with full = vel: at the start. */
 void bodies_fill(struct sim *s);

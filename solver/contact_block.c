@@ -283,4 +283,5 @@ const struct contact_path contact_spheres = {.rows = rows,
                                              .seen_size = seen_size,
                                              .stop = contact_stop_spheres,
                                              .take = take_run,
-                                             .put_back = put_back_run};
+                                             .put_back = put_back_run,
+                                             .from_bodies = true};

@@ -26,8 +26,13 @@ struct report {
     double deep, allowed; /* m */
 };
 
-struct sums {     /* of the contacts of a grain in one run */
-    double8 both; /* force, N, and nothing; torque, N m, and nothing */
+struct sums { /* of the contacts of a grain in one run */
+    union {
+        double8 both;
+        struct {
+            double4 force, torque; /* N, N m; 0 behind each */
+        };
+    };
 };
 
 /* Through memory that the compiler does not look into: with gcc 12.2 at -O3, torque.x came out as

@@ -61,23 +61,26 @@ void contact_put_back(struct sim *s);
  * team (or by one alone); ends with all threads together. */
 void contact_loop(struct sim *s, double time, bool choose, bool asked);
 
-/* Force and torque on grain i by its contacts: those of its own run, then of the others in their
- * order. Clears these sums for the next step, while they are at hand; those of
- * other runs are fetched in time. */
-static inline struct sums contact_take_sums(const struct contact_work *w,
-                                            const struct neighbours *nb, int i)
+/* The sums of a run's grains, to which it adds those that other runs have of them, in the order of
+ * these; clears theirs for the next step while they are at hand, and fetches them in time. Who takes
+ * the sums of the run clears these. */
+static inline struct sums *contact_gather(const struct contact_work *w,
+                                          const struct neighbours *nb, int run)
 {
-    struct sums *const own = &w->sums[neighbours_entry(nb, i / RUN, i % RUN)];
-    struct sums sum = *own;
-    *own = (struct sums){0};
-    for (int k = nb->begin_in[i]; k < nb->begin_in[i + 1]; k++) {
-        struct sums *const other = &w->sums[nb->in[k]];
-        __builtin_prefetch(&w->sums[nb->in[k + IN_AHEAD - 1]], 1);
-        sum.both += other->both;
+    struct sums *const all = w->sums, *const own = &all[neighbours_entry(nb, run, 0)];
+    const struct incoming *const in = nb->in;
+    const int to = nb->begin_in[run + 1];
+    for (int k = nb->begin_in[run]; k < to; k++) {
+        struct sums *const other = &all[in[k].entry];
+        __builtin_prefetch(&all[in[k + IN_AHEAD - 1].entry], 1);
+        own[in[k].local].both += other->both;
         *other = (struct sums){0};
     }
-    return sum;
+    return own;
 }
+
+/* Whether the run asks for the places of the grains' arrays at every step. */
+bool contact_asks_places(const struct sim *s, int run);
 
 /* Adds up what the runs report: forces on the walls with their impulses since the last time,
  * and, after a step that was asked for them, energies, counts and overlaps. */

@@ -35,6 +35,7 @@ struct contact_path {
     /* Whether it depends on how two bodies are turned which of their parts are within the thin skin. NULL:
      * it does not. */
     bool (*turns)(const struct sim *s);
+    bool from_bodies; /* its pairs look at the bodies alone, not at the grains' places */
 };
 
 #endif

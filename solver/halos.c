@@ -3,17 +3,6 @@
 
 #include <string.h>
 
-static void sort_slots(int *slot, int n)
-{
-    for (int a = 1; a < n; a++) {
-        const int v = slot[a];
-        int b = a;
-        for (; b > 0 && slot[b - 1] > v; b--)
-            slot[b] = slot[b - 1];
-        slot[b] = v;
-    }
-}
-
 /* Counts the grains of other runs that a run's slots name, in the order of the slots; writes the
  * `to` of the slots and, from `halo` on, the grains. The marks of the thread tell what it has
  * seen in this run. */
@@ -38,32 +27,26 @@ static int count_halo(struct neighbours *nb, int run, int n, int (*mark)[2], int
     return count;
 }
 
-/* For each grain its entries in halos, in the order of the runs. */
-static void list_incoming(struct neighbours *nb, const int *halo, int n)
+/* For each run its grains' entries in the halos of others. */
+static void list_incoming(struct neighbours *nb, const int *halo)
 {
     const int entries = nb->halo_begin[nb->runs];
-    int *const next = xalloc((size_t)n + 1, sizeof *next);
+    int *const next = xalloc((size_t)nb->runs + 1, sizeof *next);
+    xfree(nb->begin_in);
     xfree(nb->in);
+    nb->begin_in = xalloc((size_t)nb->runs + 1, sizeof *nb->begin_in);
     nb->in = xalloc((size_t)entries + IN_AHEAD, sizeof *nb->in);
-    memset(nb->begin_in, 0, ((size_t)n + 1) * sizeof *nb->begin_in);
-#pragma omp parallel for schedule(static)
     for (int e = 0; e < entries; e++)
-#pragma omp atomic
-        nb->begin_in[halo[e] + 1]++;
-    for (int i = 0; i < n; i++)
-        nb->begin_in[i + 1] += nb->begin_in[i];
-    memcpy(next, nb->begin_in, (size_t)n * sizeof *next);
-#pragma omp parallel for schedule(static)
+        nb->begin_in[halo[e] / RUN + 1]++;
+    for (int run = 0; run < nb->runs; run++) {
+        nb->begin_in[run + 1] += nb->begin_in[run];
+        next[run] = nb->begin_in[run];
+    }
     for (int run = 0; run < nb->runs; run++)
-        for (int e = nb->halo_begin[run]; e < nb->halo_begin[run + 1]; e++) {
-            int place;
-#pragma omp atomic capture
-            place = next[halo[e]]++;
-            nb->in[place] = (int)neighbours_entry(nb, run, RUN + e - nb->halo_begin[run]);
-        }
-#pragma omp parallel for schedule(dynamic, 1024)
-    for (int i = 0; i < n; i++)
-        sort_slots(nb->in + nb->begin_in[i], nb->begin_in[i + 1] - nb->begin_in[i]);
+        for (int e = nb->halo_begin[run]; e < nb->halo_begin[run + 1]; e++)
+            nb->in[next[halo[e] / RUN]++] = (struct incoming){
+                .entry = (int)neighbours_entry(nb, run, RUN + e - nb->halo_begin[run]),
+                .local = halo[e] % RUN};
     xfree(next);
 }
 
@@ -89,6 +72,6 @@ void halos_make(struct neighbours *nb, int n)
         memmove(halo + nb->halo_begin[run], halo + l->begin[run * RUN],
                 (size_t)count * sizeof *halo);
     }
-    list_incoming(nb, halo, n);
+    list_incoming(nb, halo);
     xfree(halo);
 }

@@ -33,9 +33,14 @@ static void die_lost(const struct sim *s)
 /* What the kicks of a step need besides the state of a grain. */
 struct kicks {
     double half;     /* s */
-    double4 dt;      /* s, 0 behind the position */
-    double8 gravity; /* m/s2, 0 but for the velocity */
+    double4 dt;      /* s, 0 behind */
+    double4 gravity; /* m/s2 */
     bool loaded;     /* some grain bears a load */
+};
+
+/* Force and torque on a grain, or what they make of velocity and spin; 0 behind. */
+struct wrench {
+    double4 force, torque;
 };
 
 void motion_sense_loads(struct sim *s)
@@ -57,53 +62,49 @@ static struct kicks kicks_of(const struct sim *s)
     const vec3 g = s->domain.gravity;
     return (struct kicks){.half = 0.5 * dt,
                           .dt = {dt, dt, dt, 0.0},
-                          .gravity = {g.x, g.y, g.z, 0.0, 0.0, 0.0, 0.0, 0.0},
+                          .gravity = {g.x, g.y, g.z, 0.0},
                           .loaded = s->loaded};
 }
 
-/* All forces on a grain but its weight; torque behind. */
-static inline double8 forces(const struct sim *s, const struct kicks *k, int i)
+/* All forces on a grain but its weight. Clears the sums of its contacts for the next step. */
+static inline struct wrench forces(const struct sim *s, const struct kicks *k,
+                                   struct sums *of_grain, int i)
 {
     const struct grains *const g = &s->grains;
-    double8 sum = contact_take_sums(s->contacts, &s->neighbours, i).both;
-    if (k->loaded)
-        sum += (double8){g->load[i].x,        g->load[i].y,        g->load[i].z,        0.0,
-                         g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
+    const double4 zero = {0.0};
+    struct wrench sum = {.force = of_grain->force, .torque = of_grain->torque};
+    of_grain->force = of_grain->torque = zero;
+    if (k->loaded) {
+        sum.force += (double4){g->load[i].x, g->load[i].y, g->load[i].z, 0.0};
+        sum.torque +=
+            (double4){g->load_torque[i].x, g->load_torque[i].y, g->load_torque[i].z, 0.0};
+    }
     return sum;
 }
 
-/* Accelerations of grain i, linear and angular; 0 behind each. */
-static inline double8 rates(const struct sim *s, const struct kicks *k, int i, double8 forces)
+/* What half a step makes of velocity and spin. */
+static inline struct wrench kick_of(const struct kicks *k, const struct body *b,
+                                    const struct body_rest *r, struct wrench f)
 {
-    const double m = s->grains.inv_mass[i], j = s->grains.inv_inertia[i];
-    return k->gravity + (double8){m, m, m, 0.0, j, j, j, 0.0} * forces;
+    return (struct wrench){.force = k->half * (k->gravity + body_per_mass(b, r) * f.force),
+                           .torque = k->half * (body_per_inertia(b, r) * f.torque)};
 }
 
-static inline struct motion_state state_of(const struct grains *g, int i)
+/* Half a kick and the drift; writes the body. */
+static inline void kick_drift(const struct frame *frame, const struct kicks *k, struct body *b,
+                              struct body_rest *r, struct motion_state *m, struct wrench kick)
 {
-    const vec3 x = g->pos[i], v = g->vel[i], w = g->spin[i];
-    return (struct motion_state){
-        .pos = {x.x, x.y, x.z, 0.0},
-        .vel_spin = {v.x, v.y, v.z, g->inv_mass[i], w.x, w.y, w.z, g->radius[i]}};
+    m->vel += kick.force;
+    m->spin += kick.torque;
+    m->place += frame_way(frame, k->dt * m->vel);
+    body_write(b, r, m, m->vel + kick.force);
 }
 
-/* Half a kick and the drift; writes body and position. Returns the grain's pace. */
-static inline double kick_drift(struct sim *s, const struct kicks *k, int i,
-                                struct motion_state m, double8 rate)
+/* The pace of grain i. */
+static inline double pace_of(const struct sim *s, int i, const struct motion_state *m)
 {
-    struct grains *const g = &s->grains;
-    m.vel_spin += k->half * rate;
-    const double8 full = m.vel_spin + k->half * rate;
-    const double4 v = {m.vel_spin[0], m.vel_spin[1], m.vel_spin[2], 0.0};
-    m.pos += k->dt * v;
-    g->pos[i] = motion_pos(&m);
-    if (BODY_IS_FLOAT) {
-        g->vel[i] = motion_vel(&m);
-        g->spin[i] = motion_spin(&m);
-    }
-    const double material = (double)s->bodies[i].full[3];
-    body_write(&s->bodies[i], &s->frame, &m, (double4){full[0], full[1], full[2], material});
-    return neighbours_pace(&s->neighbours, i, v);
+    const struct neighbours *const nb = &s->neighbours;
+    return neighbours_pace(nb->drift, nb->pace[i], m->vel);
 }
 
 /* Runs of grains, shared out like those of the contact loop, so that a thread moves what it has
@@ -116,8 +117,7 @@ static int run_end(const struct sim *s, int run)
 /* The pace of those parts of a grain that move fastest by its spin. */
 static inline double tip_pace(const struct sim *s, int i)
 {
-    const struct body *const b = &s->bodies[i];
-    const double4 w = __builtin_convertvector(b->spin, double4);
+    const double4 w = body_wide(s->bodies[i].spin);
     return (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) * (w[3] * w[3]) *
            (double)s->neighbours.pace[i];
 }
@@ -133,12 +133,16 @@ void motion_start(struct sim *s, int parity)
         for (int i = run * RUN; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
+            struct body *const b = &s->bodies[i];
+            struct body_rest *const r = &s->rests[i];
             const vec3 f = g->force[i], t = g->torque[i], spin = g->spin[i];
-            const double8 at_hand = {f.x, f.y, f.z, 0.0, t.x, t.y, t.z, 0.0};
-            s->bodies[i].full[3] = (real)grain_material(g, i);
-            const double square =
-                kick_drift(s, &k, i, state_of(g, i), rates(s, &k, i, at_hand));
-            fastest = square <= fastest ? fastest : square; /* not a number counts as fast */
+            const struct wrench at_hand = {{f.x, f.y, f.z, 0.0}, {t.x, t.y, t.z, 0.0}};
+            struct motion_state m = bodies_state(s, i);
+            bodies_write(s, i, &m);
+            kick_drift(&s->frame, &k, b, r, &m, kick_of(&k, b, r, at_hand));
+            g->pos[i] = motion_pos(&s->frame, &m);
+            const double pace = pace_of(s, i, &m);
+            fastest = pace <= fastest ? fastest : pace; /* not a number counts as fast */
             if (turns) {
                 turns->start(s, i, spin, t);
                 const double own = tip_pace(s, i);
@@ -150,18 +154,12 @@ void motion_start(struct sim *s, int parity)
 }
 
 /* Through memory that the compiler does not look into, see sums_part. */
-static vec3 torque_of(double8 f)
+static vec3 narrow(double4 x)
 {
     volatile double a[3];
     for (int k = 0; k < 3; k++)
-        a[k] = f[4 + k];
+        a[k] = x[k];
     return v3(a[0], a[1], a[2]);
-}
-
-static void set_forces(struct grains *g, int i, double8 f)
-{
-    g->force[i] = v3(f[0], f[1], f[2]);
-    g->torque[i] = v3(f[4], f[5], f[6]);
 }
 
 static void end_steps(struct sim *s)
@@ -169,26 +167,87 @@ static void end_steps(struct sim *s)
     struct grains *const g = &s->grains;
     const struct kicks k = kicks_of(s);
 #pragma omp for schedule(static) nowait
-    for (int run = 0; run < s->neighbours.runs; run++)
+    for (int run = 0; run < s->neighbours.runs; run++) {
+        struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
         for (int i = run * RUN; i < run_end(s, run); i++) {
-            const double8 f = forces(s, &k, i);
-            set_forces(g, i, f);
+            const struct wrench f = forces(s, &k, &sums[i - run * RUN], i);
+            struct motion_state m = body_state(&s->bodies[i], &s->rests[i]);
+            g->force[i] = narrow(f.force);
+            g->torque[i] = narrow(f.torque);
             if (g->inv_mass[i] == 0.0)
                 continue;
-            struct motion_state m =
-                body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
-            m.vel_spin += k.half * rates(s, &k, i, f);
+            const struct wrench kick = kick_of(&k, &s->bodies[i], &s->rests[i], f);
+            m.vel += kick.force;
+            m.spin += kick.torque;
+            g->pos[i] = motion_pos(&s->frame, &m);
             g->vel[i] = motion_vel(&m);
             g->spin[i] = motion_spin(&m);
             if (shape.path->turning)
                 shape.path->turning->end(s, i, g->torque[i]);
         }
+    }
+}
+
+/* Kicks and drifts a run whose sums are gathered; its largest pace. `places`: someone
+ * asks where the grains are before the steps end. */
+static inline __attribute__((always_inline)) double
+turn_run(struct sim *s, const struct kicks *k, int run, struct sums *sums, bool places)
+{
+    const struct frame frame = s->frame;
+    struct body *const restrict bodies = &s->bodies[run * RUN];
+    struct body_rest *const restrict rests = &s->rests[run * RUN];
+    vec3 *const restrict pos = &s->grains.pos[run * RUN];
+    const float *const restrict paces = &s->neighbours.pace[run * RUN];
+    const double4 drift = s->neighbours.drift;
+    const int n = run_end(s, run) - run * RUN;
+    double fastest = 0.0;
+    for (int i = 0; i < n; i++) {
+        struct body *const b = &bodies[i];
+        struct body_rest *const r = &rests[i];
+        const struct wrench f = forces(s, k, &sums[i], run * RUN + i);
+        if (b->vel[3] == (real)0.0)
+            continue;
+        struct motion_state m = body_state(b, r);
+        const struct wrench kick = kick_of(k, b, r, f);
+        m.vel += kick.force;
+        m.spin += kick.torque;
+        kick_drift(&frame, k, b, r, &m, kick);
+        if (places)
+            pos[i] = motion_pos(&frame, &m);
+        const double pace = neighbours_pace(drift, paces[i], m.vel);
+        fastest = pace <= fastest ? fastest : pace;
+    }
+    return fastest;
+}
+
+/* The same of grains that have an orientation; tip: the largest pace of a part by spin. */
+static double turn_bodies(struct sim *s, const struct kicks *k, int run, struct sums *sums,
+                          double *tip)
+{
+    double fastest = 0.0;
+    for (int i = run * RUN; i < run_end(s, run); i++) {
+        struct body *const b = &s->bodies[i];
+        struct body_rest *const r = &s->rests[i];
+        const struct wrench f = forces(s, k, &sums[i - run * RUN], i);
+        if (b->vel[3] == (real)0.0)
+            continue;
+        struct motion_state m = body_state(b, r);
+        const struct wrench kick = kick_of(k, b, r, f);
+        m.vel += kick.force;
+        m.spin += kick.torque;
+        kick_drift(&s->frame, k, b, r, &m, kick);
+        s->grains.pos[i] = motion_pos(&s->frame, &m);
+        const double pace = pace_of(s, i, &m);
+        fastest = pace <= fastest ? fastest : pace;
+        shape.path->turning->turn(s, i, narrow(f.torque));
+        const double own = tip_pace(s, i);
+        *tip = own <= *tip ? *tip : own;
+    }
+    return fastest;
 }
 
 void motion_turn(struct sim *s, bool last, int parity)
 {
-    struct grains *const g = &s->grains;
-    const struct turning *const turns = shape.path->turning;
     const struct kicks k = kicks_of(s);
     double fastest = 0.0, tip = 0.0;
     if (last) {
@@ -196,33 +255,39 @@ void motion_turn(struct sim *s, bool last, int parity)
         return;
     }
 #pragma omp for schedule(static) nowait
-    for (int run = 0; run < s->neighbours.runs; run++)
-        for (int i = run * RUN; i < run_end(s, run); i++) {
-            const double8 f = forces(s, &k, i), rate = rates(s, &k, i, f);
-            if (g->inv_mass[i] == 0.0)
-                continue;
-            struct motion_state m =
-                body_state(&s->bodies[i], &g->pos[i], &g->vel[i], &g->spin[i]);
-            m.vel_spin += k.half * rate;
-            const double square = kick_drift(s, &k, i, m, rate);
-            fastest = square <= fastest ? fastest : square;
-            if (turns) {
-                turns->turn(s, i, torque_of(f));
-                const double own = tip_pace(s, i);
-                tip = own <= tip ? tip : own;
-            }
-        }
+    for (int run = 0; run < s->neighbours.runs; run++) {
+        struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
+        const double pace = shape.path->turning           ? turn_bodies(s, &k, run, sums, &tip)
+                            : contact_asks_places(s, run) ? turn_run(s, &k, run, sums, true)
+                                                          : turn_run(s, &k, run, sums, false);
+        fastest = pace <= fastest ? fastest : pace;
+    }
     neighbours_speed(s, parity, fastest, tip);
 #pragma omp barrier
+}
+
+void motion_places(struct sim *s)
+{
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < s->grains.n; i++)
+        if (s->grains.inv_mass[i] != 0.0) {
+            const struct motion_state m = body_state(&s->bodies[i], &s->rests[i]);
+            s->grains.pos[i] = motion_pos(&s->frame, &m);
+        }
 }
 
 void motion_forces(struct sim *s)
 {
     const struct kicks k = kicks_of(s);
 #pragma omp for schedule(static)
-    for (int run = 0; run < s->neighbours.runs; run++)
-        for (int i = run * RUN; i < run_end(s, run); i++)
-            set_forces(&s->grains, i, forces(s, &k, i));
+    for (int run = 0; run < s->neighbours.runs; run++) {
+        struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
+        for (int i = run * RUN; i < run_end(s, run); i++) {
+            const struct wrench f = forces(s, &k, &sums[i - run * RUN], i);
+            s->grains.force[i] = narrow(f.force);
+            s->grains.torque[i] = narrow(f.torque);
+        }
+    }
 }
 
 void motion_guard(const struct sim *s)

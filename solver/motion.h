@@ -22,6 +22,9 @@ void motion_start(struct sim *s, int parity);
  * ends with all threads together; else leaves force and torque and does not wait. */
 void motion_turn(struct sim *s, bool last, int parity);
 
+/* Where the grains are comes to their arrays: after a motion_turn that was not the last. By one thread. */
+void motion_places(struct sim *s);
+
 /* Gathers force and torque, moves nothing: at the start of a run. */
 void motion_forces(struct sim *s);
 

@@ -49,10 +49,10 @@ void neighbours_create(struct sim *s)
     slots_create(&nb->walls, n);
     nb->moved = nb->moved_inner = (double)INFINITY; /* stale from the start */
     frame_of(&s->frame, &s->domain);
-    grains_follow(&s->grains, (void **)&nb->begin_in, sizeof *nb->begin_in);
     grains_follow(&s->grains, (void **)&nb->skin, sizeof *nb->skin);
     grains_follow(&s->grains, (void **)&nb->pace, sizeof *nb->pace);
     grains_follow(&s->grains, (void **)&s->bodies, sizeof *s->bodies);
+    grains_follow(&s->grains, (void **)&s->rests, sizeof *s->rests);
 }
 
 void neighbours_free(struct sim *s)
@@ -67,6 +67,7 @@ void neighbours_free(struct sim *s)
     xfree(nb->skin);
     xfree(nb->pace);
     xfree(s->bodies);
+    xfree(s->rests);
 }
 
 enum { BLOCK = 1024 };

@@ -35,6 +35,12 @@ struct slots {
     int *n_active;       /* per run */
 };
 
+/* A grain of a run that stands in the halo of another. */
+struct incoming {
+    int entry; /* there (neighbours_entry) */
+    int local; /* here, from 0 */
+};
+
 struct neighbours {
     double reach;       /* m, gap up to which laws act */
     float *skin;        /* m, per grain; 0 of frozen ones, as their pace */
@@ -49,9 +55,9 @@ struct neighbours {
     int *to;         /* per pair slot: the other grain as its run counts it: own ones from 0,
                            then its halo from RUN on */
     int *halo_begin; /* runs + 1: a run's halo are the grains of other runs in its slots */
-    int *begin_in,
-        *in;      /* n + 1, halos: entries (neighbours_entry) of a grain in others' halos */
-    int listed;   /* grains in the lists; newcomers stand behind them */
+    int *begin_in;   /* runs + 1 */
+    struct incoming *in; /* of each run, in the order of the others */
+    int listed;          /* grains in the lists; newcomers stand behind them */
     double moved; /* the part of its skin that a grain may have moved since the list was made */
     double moved_inner; /* since the active slots were chosen */
     double fastest
@@ -66,11 +72,11 @@ void neighbours_check(const struct sim *s, struct scene *scene);
 void neighbours_create(struct sim *s);
 void neighbours_free(struct sim *s);
 
-/* Square of speed over skin: how fast grain i uses up its skin, 1/s2. v: m/s, and anything behind. */
-static inline double neighbours_pace(const struct neighbours *nb, int i, double4 v)
+/* Square of speed over skin: how fast a grain uses up its skin, 1/s2. v: m/s, and anything behind. */
+static inline double neighbours_pace(double4 drift, float pace, double4 v)
 {
-    const double4 beside = v - nb->drift, square = beside * beside;
-    return (square[0] + square[1] + square[2]) * (double)nb->pace[i];
+    const double4 beside = v - drift, square = beside * beside;
+    return (square[0] + square[1] + square[2]) * (double)pace;
 }
 
 /* m, gap up to which a pair is active. */

@@ -55,6 +55,7 @@ struct sim {
     struct traffic traffic;
     struct frame frame;
     struct body *bodies;        /* per grain, as the contact loop reads it */
+    struct body_rest *rests;    /* what the motion knows beyond */
     struct attitude *attitudes; /* per grain, likewise; NULL: the path asks for none */
     struct neighbours neighbours;
     struct walls walls;

@@ -67,6 +67,8 @@ void step_grains(struct sim *s, int n)
 #pragma omp master
             done = mine;
         }
+        if (done < left)
+            motion_places(s);
         contact_guard(s);
         motion_guard(s);
         left -= done;

@@ -70,11 +70,9 @@ static bool round_body(const struct grains *g, int i)
 static void turn_round(struct sim *s, int i, vec3 torque)
 {
     struct grains *const g = &s->grains;
-    const struct body *const b = &s->bodies[i];
     const double dt = s->run.dt, kick = 0.5 * dt * g->inv_inertia[i];
-    const vec3 spin = BODY_IS_FLOAT
-                          ? g->spin[i]
-                          : v3((double)b->spin[0], (double)b->spin[1], (double)b->spin[2]);
+    const struct motion_state state = body_state(&s->bodies[i], &s->rests[i]);
+    const vec3 spin = motion_spin(&state);
     const vec3 half = v3_scale(0.5 * dt, spin);
     g->full_spin[i] = v3_axpy(spin, kick, torque);
     g->orientation[i] =
@@ -87,18 +85,13 @@ static void turn_round(struct sim *s, int i, vec3 torque)
 static void drift(struct sim *s, int i, vec3 torque)
 {
     struct grains *const g = &s->grains;
-    struct body *const b = &s->bodies[i];
     const double dt = s->run.dt;
     const vec3 inertia = g->inertia[i];
     const struct rotated r = rotation_free(g->orientation[i], g->momentum[i], inertia, dt);
     const struct mat3 m = quat_matrix(r.q);
     g->orientation[i] = r.q;
     g->full_spin[i] = rotation_spin(&m, v3_axpy(g->momentum[i], 0.5 * dt, torque), inertia);
-    b->spin[0] = (real)r.spin.x;
-    b->spin[1] = (real)r.spin.y;
-    b->spin[2] = (real)r.spin.z;
-    if (BODY_IS_FLOAT)
-        g->spin[i] = r.spin;
+    body_set_spin(&s->bodies[i], &s->rests[i], r.spin);
     if (s->attitudes)
         attitude_write(&s->attitudes[i], r.q, g->full_spin[i]);
 }
