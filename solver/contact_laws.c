@@ -138,9 +138,7 @@ static inline __attribute__((always_inline)) void pack(struct block *b, bool cou
                       iz * fx - ix * fz + my,
                       ix * fy - iy * fx + mz,
                       zero};
-        turn8(i);
-        for (int k = 0; k < 8; k++)
-            put8(b->on[0][c + k], i[k]);
+        turn_columns(i, &b->on[0][c]);
         if (!both)
             continue;
         const real8 jx = take8(&l->jx[c]), jy = take8(&l->jy[c]), jz = take8(&l->jz[c]);
@@ -152,9 +150,7 @@ static inline __attribute__((always_inline)) void pack(struct block *b, bool cou
                       jx * fz - jz * fx - my,
                       jy * fx - jx * fy - mz,
                       zero};
-        turn8(j);
-        for (int k = 0; k < 8; k++)
-            put8(b->on[1][c + k], j[k]);
+        turn_columns(j, &b->on[1][c]);
     }
 }
 
@@ -195,12 +191,8 @@ static inline __attribute__((always_inline)) void pack_line(struct block *b, boo
             j[5] -= jz * fx - jx * fz;
             j[6] -= jx * fy - jy * fx;
         }
-        turn8(i);
-        turn8(j);
-        for (int k = 0; k < 8; k++) {
-            put8(b->on[0][c + k], i[k]);
-            put8(b->on[1][c + k], j[k]);
-        }
+        turn_columns(i, &b->on[0][c]);
+        turn_columns(j, &b->on[1][c]);
     }
 }
 

@@ -12,9 +12,10 @@
 static inline __attribute__((always_inline)) void
 spheres_turn_in(const struct sim *s, const int *grain, real8 out[8])
 {
+    const real4 *row[8];
     for (int k = 0; k < 8; k++)
-        out[k] = take8((const real *)&s->bodies[grain[k]].vel);
-    turn8(out);
+        row[k] = &s->bodies[grain[k]].vel; /* spin comes behind */
+    turn_rows(row, out);
 }
 
 /* Contacts of spheres with each other, a block of them (b->n, b->c.i, b->c.j, b->kept are given), in this
