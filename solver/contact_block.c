@@ -38,16 +38,17 @@ static void call(const struct sim *s, const struct pack_block *p)
 
 /* place and full of eight pairs, i less j: number k of them in out[k], the fourth and the eighth of no
  * meaning; places in steps of the frame, not yet by the nearest image. */
-static inline __attribute__((always_inline)) void
-apart(const struct sim *s, const int *i, const int *j, real8 out[8])
+static inline __attribute__((always_inline)) void apart(const struct sim *s, const int *i,
+                                                        const int *j, real8 out[8])
 {
     const struct body *const all = s->bodies;
     real8 place[4], full[4];
     for (int k = 0; k < 4; k++) {
         const struct body *const i0 = &all[i[k]], *const i4 = &all[i[k + 4]];
         const struct body *const j0 = &all[j[k]], *const j4 = &all[j[k + 4]];
-        place[k] = __builtin_convertvector(
-            turn_join_places(i0->place, i4->place) - turn_join_places(j0->place, j4->place), real8);
+        place[k] = __builtin_convertvector(turn_join_places(i0->place, i4->place) -
+                                               turn_join_places(j0->place, j4->place),
+                                           real8);
         full[k] = turn_join(i0->full, i4->full) - turn_join(j0->full, j4->full);
     }
     turn_half(place, out);

@@ -70,8 +70,8 @@ static inline __attribute__((always_inline)) real4 turn_second(real8 a)
 
 typedef coordinate coordinate8 __attribute__((vector_size(8 * sizeof(coordinate))));
 
-static inline __attribute__((always_inline)) coordinate8 turn_join_places(coordinate4 row,
-                                                                          coordinate4 fourth_next)
+static inline __attribute__((always_inline)) coordinate8
+turn_join_places(coordinate4 row, coordinate4 fourth_next)
 {
     return (coordinate8)turn_join((real4)row, (real4)fourth_next);
 }
