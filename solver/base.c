@@ -2,6 +2,7 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include "base.h"
 
+#include <malloc.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -33,6 +34,13 @@ _Noreturn void die(int code, const char *format, ...)
 /* Large arrays lie on huge pages where the system has them: what reads at random in an array of many
  * small pages waits for their addresses. */
 enum { LINE = 64, HUGE_PAGE = 1 << 21 };
+
+void memory_open(void)
+{
+#ifdef M_MMAP_THRESHOLD
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
 
 void *xalloc(size_t count, size_t size)
 {

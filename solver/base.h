@@ -26,6 +26,11 @@ enum { SUM_BLOCK = 1024 }; /* terms per block of a reproducible sum */
 _Noreturn void die(int code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 extern void (*die_hook)(int code, const char *message);
 
+/* At the start of the program: what is large goes back to the system when it is freed. Else the C
+ * library, once a large block was freed, takes blocks of up to that size from a heap that is left with
+ * holes (a tenth of the memory of a run of 100,000 grains). */
+void memory_open(void);
+
 void *xalloc(size_t count, size_t size);                                /* zeroed; never NULL */
 void *xrealloc(void *old, size_t old_count, size_t count, size_t size); /* new part zeroed */
 void xfree(void *p);

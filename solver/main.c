@@ -229,6 +229,7 @@ static void fit_threads(const struct sim *s)
 int main(int argc, char **argv)
 {
     bound_spinning(argv);
+    memory_open();
     const struct options o = parse(argc, argv);
     if (o.threads > 0)
         omp_set_num_threads(o.threads);

@@ -218,14 +218,14 @@ void neighbours_rebuild(struct sim *s)
     struct search c;
     double clock = wall_clock();
     contact_put_back(s);
-    struct kept pairs = slots_keep(&nb->pairs, nb->listed, rows);
-    struct kept walls = slots_keep(&nb->walls, nb->listed, rows);
     clock = timer_add(&s->timers, TIME_NEIGHBOURS, clock);
     int *const order = memory_order(s);
     nb->runs = (s->grains.n + RUN - 1) / RUN;
     bodies_sort(s, order, nb->listed);
     choose_skins(s);
     clock = timer_add(&s->timers, TIME_SORT, clock);
+    struct kept pairs = slots_keep(&nb->pairs, nb->listed, rows);
+    struct kept walls = slots_keep(&nb->walls, nb->listed, rows);
     search_open(&c, s, nb->skin, nb->reach);
     slots_fill(s, &nb->pairs, search_pairs, &c, &pairs, order, true);
     search_free(&c);
