@@ -116,7 +116,7 @@ set style fill solid 0.7
 set boxwidth 0.6
 unset key
 plot '$out/letters.dat' using (\$0 + 1):2:(\$0 < 1 ? 0x0072b2 : \$0 < 4 ? 0x009e73 : 0xd55e00):xtic(1) with boxes lc rgb variable, \
-     '' using (\$0 + 1):2:3 with yerrorbars ps 0 lc rgb '#333333', \
+     '' using (\$0 + 1):2:3 with yerrorbars pt 0 ps 0 lc rgb '#333333', \
      '' using (\$0 + 1):(\$2 + \$3 + 0.012):(sprintf('%.3f', \$2)) with labels
 END
 echo "picture: $out/letters.png"

@@ -80,12 +80,14 @@ static bool try_face(const struct crown *a, const struct piece *f, struct crown_
     return true;
 }
 
+/* `beyond`: the plane itself is out of reach. */
 static bool find(const struct crown *a, const struct piece *f, double reach, bool *face,
-                 struct crown_gap *g)
+                 bool *beyond, struct crown_gap *g)
 {
     *face = try_face(a, f, g);
-    if (*face || g->gap >= reach) /* further than the plane is the piece */
-        return g->gap < reach;
+    *beyond = g->gap >= reach;
+    if (*face || *beyond) /* further than the plane is the piece */
+        return !*beyond;
     const vec3 lowest = g->on_a;
     for (int k = 0; k < f->n; k++)
         if (outside(f, k, lowest) > 0.0 && try_point(a, f, k, true, lowest, reach, g))
@@ -128,31 +130,34 @@ static void find_beside(const struct crown *a, const struct piece *f, const stru
 
 /* What find() gives counts as long as the plane lies outside of the core. A body that hangs past an
  * edge, its centre beyond the plane, may have its farthest point abreast of the piece, which it
- * does not reach all the same: then the nearest points tell. Where the piece cuts the core each of
- * its sides has a gap of its own, and the greater counts. */
+ * does not reach all the same, or a part that lies on the edge from the other side: then the nearest
+ * points tell. Where the piece cuts the core each of its sides has a gap of its own, and the
+ * greater counts. */
 static bool find_side(const struct crown *a, const struct polyhedron *core,
                       const struct piece *f, double reach, bool *face, struct crown_gap *g)
 {
-    if (!find(a, f, reach, face, g))
-        return false;
-    if (g->gap >= 0.0 || f->n == 0)
-        return true;
+    bool beyond, other_face;
+    const bool own = find(a, f, reach, face, &beyond, g);
+    if ((own && g->gap >= 0.0) || beyond || f->n == 0)
+        return own;
     const struct gap exact = exact_gap(core, f, reach);
     if (exact.distance >= reach)
         return false;
     struct piece back = *f;
     struct crown_gap other;
-    bool other_face;
     back.normal = v3_scale(-1.0, f->normal);
-    if (find(a, &back, reach, &other_face, &other) && other.gap > g->gap) {
+    bool found = own;
+    if (find(a, &back, reach, &other_face, &beyond, &other) && (!own || other.gap > g->gap)) {
         *g = other;
         *face = other_face;
+        found = true;
     }
-    if (exact.distance > 0.0 && g->gap < 0.0) {
+    if (exact.distance > 0.0 && (!found || g->gap < 0.0)) {
         *face = false;
         find_beside(a, f, &exact, reach, g);
+        found = true;
     }
-    return true;
+    return found;
 }
 
 /* As in dilated_pair.c. */
