@@ -269,6 +269,39 @@ static void check_hanging(void)
     sim_free(s);
 }
 
+/* A tilted cube that stands on a plate by a corner, near an edge beyond which its highest corner is: as
+ * a part of a grain whose centre is below the plate already, it is seen from there. */
+static void check_leaning(void)
+{
+    struct sim *const s =
+        sim_from("[domain]\nsize = 100 100 100 mm\n[run]\nend = 1 s\n" MATERIAL
+                 "restitution = 0.3\nfriction = 0.5\n[grains c]\nform = cube\ndilation = 1 mm\n"
+                 "diameter = 10.05 mm\ndensity = 652 kg/m3\nfill = point\nmaterial = "
+                 "m\nposition = 50 50 50 mm\n");
+    const double turn = 0.37, gap = 0.31e-3, h = (s->grains.radius[0] - 1e-3) / sqrt(3.0);
+    struct shape_pose pose = {.size = s->grains.radius[0] / s->grains.species[0].form.bounding,
+                              .q = {cos(0.5 * turn), 0.0, -sin(0.5 * turn), 0.0}};
+    pose.turn = quat_matrix(pose.q);
+    const vec3 low = mat3_turn(&pose.turn, v3(-h, 0.0, -h)),
+               high = mat3_turn(&pose.turn, v3(h, 0.0, h));
+    const double edge = 0.5 * (low.x + high.x), z = low.z - gap;
+    for (int k = 0; k < 2; k++) {
+        const struct shape_facet plate = {
+            .n = 4,
+            .corner = {v3(edge, -0.04, z), v3(edge - 0.05, -0.04, z), v3(edge - 0.05, 0.04, z),
+                       v3(edge, 0.04, z)},
+            .normal = v3(0.0, 0.0, k == 0 ? 1.0 : -1.0)};
+        struct shape_point p[4];
+        vec3 core;
+        const int n = shape.meet_flat(&pose, 0, &plate, 0.0, &core, p);
+        check(n > 0, "a cube that stands on a plate is met, seen from %s",
+              k ? "below" : "above");
+        check_abs(n > 0 ? n * p[0].share * p[0].depth : -1.0, 1e-3 - gap, 0.02 * pose.size,
+                  "where its corners stand, within what these lie inside of the cube's");
+    }
+    sim_free(s);
+}
+
 /* Volumes: those of the parts for grids, and the shadow's mean, a quarter of the surface of a
  * convex body [Cauchy1841]. */
 static void check_body(int form, double r, bool convex)
@@ -392,6 +425,7 @@ int main(void)
 {
     check_plate();
     check_hanging();
+    check_leaning();
     omp_set_num_threads(1); /* small scenes: more threads only wait for each other */
     check_body(0, 0.1, true);
     check_body(1, 0.3, true);

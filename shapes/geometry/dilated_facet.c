@@ -130,9 +130,9 @@ static void find_beside(const struct crown *a, const struct piece *f, const stru
 
 /* What find() gives counts as long as the plane lies outside of the core. A body that hangs past an
  * edge, its centre beyond the plane, may have its farthest point abreast of the piece, which it
- * does not reach all the same, or a part that lies on the edge from the other side: then the nearest
- * points tell. Where the piece cuts the core each of its sides has a gap of its own, and the
- * greater counts. */
+ * does not reach all the same: then the nearest points tell. Or it has a part that rests on the
+ * piece from the other side: what that side gives counts. Where the piece cuts the core each of its
+ * sides has a gap of its own, and the greater counts. */
 static bool find_side(const struct crown *a, const struct polyhedron *core,
                       const struct piece *f, double reach, bool *face, struct crown_gap *g)
 {
@@ -145,17 +145,17 @@ static bool find_side(const struct crown *a, const struct polyhedron *core,
         return false;
     struct piece back = *f;
     struct crown_gap other;
-    back.normal = v3_scale(-1.0, f->normal);
     bool found = own;
-    if (find(a, &back, reach, &other_face, &beyond, &other) && (!own || other.gap > g->gap)) {
+    back.normal = v3_scale(-1.0, f->normal);
+    if (find(a, &back, reach, &other_face, &beyond, &other) &&
+        other.gap > (own ? g->gap : 0.0)) {
         *g = other;
         *face = other_face;
         found = true;
     }
-    if (exact.distance > 0.0 && (!found || g->gap < 0.0)) {
+    if (exact.distance > 0.0 && found && g->gap < 0.0) {
         *face = false;
         find_beside(a, f, &exact, reach, g);
-        found = true;
     }
     return found;
 }
