@@ -26,7 +26,7 @@ static void write(const struct grains *g, struct body *b, struct body_rest *r, i
                   const struct motion_state *m)
 {
     b->full[3] = (real)grain_material(g, i);
-    body_masses(r, g->inv_mass[i], g->inv_inertia[i]);
+    b->spin[3] = (real)g->radius[i];
     body_write(b, r, m, m->vel);
 }
 
@@ -42,7 +42,7 @@ struct motion_state bodies_state(const struct sim *s, int i)
     struct motion_state m = {
         .place = frame_place(&s->frame, (double4){x.x, x.y, x.z, g->inv_inertia[i]}),
         .vel = {v.x, v.y, v.z, g->inv_mass[i]},
-        .spin = {w.x, w.y, w.z, g->radius[i]}};
+        .spin = {w.x, w.y, w.z, BODY_IS_FLOAT ? g->inv_inertia[i] : g->radius[i]}};
     if (BODY_IS_FLOAT) { /* which is finer: the one at hand, if it is that */
         const struct motion_state own = body_state(&s->bodies[i], &s->rests[i]);
         const vec3 same = motion_pos(&s->frame, &own);

@@ -37,12 +37,12 @@ typedef int64_t fine4 __attribute__((vector_size(4 * sizeof(int64_t)))); /* 2^-3
 
 typedef uint32_t uint4 __attribute__((vector_size(4 * sizeof(uint32_t))));
 
-/* What the motion knows of a grain beyond its body, so that its state is good to 48 bits and more. */
+/* What the motion knows of a grain beyond its body, so that its state is that of a build in double. */
 struct body_rest {
-    uint4 place;     /* 2^-32 steps of the place */
-    real4 vel, spin; /* what the body's leave of the velocity and spin */
-    double mass[2];  /* 1/kg, 1/(kg m2); 0 if frozen */
-} __attribute__((aligned(64)));
+    double4 vel;  /* m/s at the half step; 1/kg, 0 if frozen */
+    double4 spin; /* rad/s at the half step; 1/(kg m2) */
+    uint4 place;  /* 2^-32 steps of the place */
+};
 #else
 enum { BODY_IS_FLOAT = 0 };
 typedef double4 fine4; /* m */
@@ -54,8 +54,9 @@ struct body_rest {
 
 /* The state of a grain within the steps of a call. */
 struct motion_state {
-    fine4 place;       /* in double, 1/(kg m2) behind */
-    double4 vel, spin; /* with what stands behind them in a body */
+    fine4 place;  /* in double, 1/(kg m2) behind */
+    double4 vel;  /* 1/kg behind */
+    double4 spin; /* the radius behind; in float, 1/(kg m2) */
 };
 
 /* How places are written and their differences read back, from the box. */
@@ -113,16 +114,18 @@ static inline double4 body_wide(real4 a)
 
 static inline struct motion_state body_state(const struct body *b, const struct body_rest *r)
 {
-    struct motion_state m = {.vel = body_wide(b->vel), .spin = body_wide(b->spin)};
+    struct motion_state m;
 #ifdef SILT_FLOAT
     const coordinate4 high = b->place;
     const uint4 low = r->place;
     m.place = ((fine4){high[0], high[1], high[2], high[3]} << 32) +
               (fine4){low[0], low[1], low[2], low[3]};
-    m.vel += body_wide(r->vel);
-    m.spin += body_wide(r->spin);
+    m.vel = r->vel;
+    m.spin = r->spin;
 #else
     (void)r;
+    m.vel = b->vel;
+    m.spin = b->spin;
     m.place = b->place;
 #endif
     return m;
@@ -133,7 +136,7 @@ static inline double body_per_mass(const struct body *b, const struct body_rest 
 {
 #ifdef SILT_FLOAT
     (void)b;
-    return r->mass[0];
+    return r->vel[3];
 #else
     (void)r;
     return b->vel[3];
@@ -144,7 +147,7 @@ static inline double body_per_inertia(const struct body *b, const struct body_re
 {
 #ifdef SILT_FLOAT
     (void)b;
-    return r->mass[1];
+    return r->spin[3];
 #else
     (void)r;
     return b->place[3];
@@ -173,43 +176,32 @@ static inline void body_set_spin(struct body *b, struct body_rest *r, vec3 spin)
     for (int a = 0; a < 3; a++) {
         b->spin[a] = (real)exact[a];
 #ifdef SILT_FLOAT
-        r->spin[a] = (real)(exact[a] - (double)b->spin[a]);
+        r->spin[a] = exact[a];
 #else
         (void)r;
 #endif
     }
 }
 
-/* Both at once, where the state does not hold them. */
-static inline void body_masses(struct body_rest *r, double per_mass, double per_inertia)
-{
-#ifdef SILT_FLOAT
-    r->mass[0] = per_mass;
-    r->mass[1] = per_inertia;
-#else
-    (void)r;
-    (void)per_mass;
-    (void)per_inertia;
-#endif
-}
-
-/* Writes the body of a grain in that state, but for its material; `full`: velocity predicted for the
+/* Writes the body of a grain in that state, but for its material and, in float, its radius; `full`: velocity predicted for the
  * full step. */
 static inline void body_write(struct body *b, struct body_rest *r, const struct motion_state *m,
                               double4 full)
 {
     const real4 vel = __builtin_convertvector(m->vel, real4);
-    const real4 spin = __builtin_convertvector(m->spin, real4);
+    real4 spin = __builtin_convertvector(m->spin, real4);
     real4 predicted = __builtin_convertvector(full, real4);
     predicted[3] = b->full[3];
     b->full = predicted;
+    if (BODY_IS_FLOAT)
+        spin[3] = b->spin[3];
     b->vel = vel;
     b->spin = spin;
 #ifdef SILT_FLOAT
     b->place = __builtin_convertvector(m->place >> 32, coordinate4);
     r->place = __builtin_convertvector(m->place, uint4);
-    r->vel = __builtin_convertvector(m->vel - body_wide(vel), real4);
-    r->spin = __builtin_convertvector(m->spin - body_wide(spin), real4);
+    r->vel = m->vel;
+    r->spin = m->spin;
 #else
     (void)r;
     b->place = m->place;
