@@ -32,19 +32,9 @@ typedef double real;
  * [Lomont03], then a polynomial in what is wrong with that guess (7 %), and in double a step of
  * third order: a root and a division take several times as long. 0 counts as 1e-36:
  * in squares of metres, newtons or kilograms that is nothing. */
-static inline real inverse_root(real x)
+static inline double inverse_root_double(double x)
 {
-    const real at_least = x + (real)1e-36;
-#ifdef SILT_FLOAT
-    int32_t bits;
-    float y;
-    __builtin_memcpy(&bits, &at_least, sizeof bits);
-    bits = 0x5f374756 - (bits >> 1);
-    __builtin_memcpy(&y, &bits, sizeof y);
-    const float h = fmaf(-(at_least * y), y, 1.0f);
-    const float p = fmaf(fmaf(0.27475188628f, h, 0.31393374689f), h, 0.37499847298f);
-    return y * fmaf(fmaf(p, h, 0.49999833435f), h, 1.0f);
-#else
+    const double at_least = x + 1e-36;
     int64_t bits;
     double y;
     __builtin_memcpy(&bits, &at_least, sizeof bits);
@@ -55,6 +45,22 @@ static inline real inverse_root(real x)
         fma(fma(0.31364642969779577, h, 0.3762736749950394), h, 0.49999933439808675);
     const double z = y * fma(p, h, 0.9999992605323762), e = fma(-(at_least * z), z, 1.0);
     return fma(e * z, fma(0.375, e, 0.5), z);
+}
+
+static inline real inverse_root(real x)
+{
+#ifdef SILT_FLOAT
+    const real at_least = x + (real)1e-36;
+    int32_t bits;
+    float y;
+    __builtin_memcpy(&bits, &at_least, sizeof bits);
+    bits = 0x5f374756 - (bits >> 1);
+    __builtin_memcpy(&y, &bits, sizeof y);
+    const float h = fmaf(-(at_least * y), y, 1.0f);
+    const float p = fmaf(fmaf(0.27475188628f, h, 0.31393374689f), h, 0.37499847298f);
+    return y * fmaf(fmaf(p, h, 0.49999833435f), h, 1.0f);
+#else
+    return inverse_root_double(x);
 #endif
 }
 

@@ -37,31 +37,43 @@ void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view
     wall_view_put(out, v3_axpy(v3_scale(up, s->axis), beyond, outwards), curvature, part);
 }
 
-void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l)
+/* The same for several; `one`: they all look at strip[0], whose numbers then stay where they are. */
+static inline __attribute__((always_inline)) void views(const struct wall_strip *strip,
+                                                        struct wall_looks *l, bool one)
 {
     const vec3 foot = strip->foot, axis = strip->axis, across = v3_across(axis);
 #pragma omp simd
     for (int c = 0; c < l->n; c++) {
-        const struct wall_strip *const s = &strip[l->element[c]];
+        const struct wall_strip *const s = &strip[one ? 0 : l->element[c]];
         const double x = l->x[c] - foot.x, y = l->y[c] - foot.y, z = l->z[c] - foot.z;
         const double h = x * axis.x + y * axis.y + z * axis.z;
         const double rx = x - h * axis.x, ry = y - h * axis.y, rz = z - h * axis.z;
-        const double r = sqrt(rx * rx + ry * ry + rz * rz);
-        const double inverse = r > 0.0 ? 1.0 / r : 0.0, none = r > 0.0 ? 0.0 : 1.0;
+        const double square = rx * rx + ry * ry + rz * rz;
+        const double some = inverse_root_double(square), r = square * some;
+        const double inverse = square > 0.0 ? some : 0.0, none = square > 0.0 ? 0.0 : 1.0;
         const double h0 = s->h0, r0 = s->r0, dh = s->h1 - h0, dr = s->r1 - r0;
-        const double t = ((h - h0) * dh + (r - r0) * dr) / (dh * dh + dr * dr);
+        const double per = 1.0 / (dh * dh + dr * dr);
+        const double t = ((h - h0) * dh + (r - r0) * dr) * per;
         const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t, up = h - (h0 + at * dh);
         const double radius = r0 + at * dr, beyond = r - radius;
-        const double distance = sqrt(up * up + beyond * beyond);
+        const double away = up * up + beyond * beyond;
         const bool ends = at != t, edge = ends & (radius > 0.0), tip = ends & (dh != 0.0);
-        const bool curved = !ends & (radius > 0.0) & (distance > 0.0);
+        const bool curved = !ends & (radius > 0.0) & (away > 0.0);
+        const double over = beyond * inverse_root_double(away) / (curved ? radius : 1.0);
         l->ax[c] = up * axis.x + beyond * (inverse * rx + none * across.x);
         l->ay[c] = up * axis.y + beyond * (inverse * ry + none * across.y);
         l->az[c] = up * axis.z + beyond * (inverse * rz + none * across.z);
-        const double over = beyond / ((curved ? distance : 1.0) * (curved ? radius : 1.0));
         l->curvature[c] = curved ? over : 0.0;
         l->part[c] = edge ? WALL_EDGE : tip ? WALL_VERTEX : WALL_FACE;
     }
+}
+
+void wall_strip_views(const struct wall_strip *strip, int n, struct wall_looks *l)
+{
+    if (n == 1)
+        views(strip, l, true);
+    else
+        views(strip, l, false);
 }
 
 bool wall_strip_flat(const struct wall_strip *s, const vec3 *x, struct wall_flat *plane,
@@ -201,9 +213,9 @@ void wall_tube_views(const void *shape, struct wall_looks *l)
     const struct tube *const t = shape;
     const struct wall_strip *const s = &t->strip[0];
     const vec3 foot = s->foot, axis = s->axis, across = v3_across(axis);
-    const double radius = s->r0;
+    const double radius = s->r0, curvature = 1.0 / radius;
     if (!t->endless) {
-        wall_strip_views(s, l);
+        wall_strip_views(s, t->n, l);
         return;
     }
 #pragma omp simd
@@ -211,12 +223,13 @@ void wall_tube_views(const void *shape, struct wall_looks *l)
         const double x = l->x[c] - foot.x, y = l->y[c] - foot.y, z = l->z[c] - foot.z;
         const double h = x * axis.x + y * axis.y + z * axis.z;
         const double rx = x - h * axis.x, ry = y - h * axis.y, rz = z - h * axis.z;
-        const double r = sqrt(rx * rx + ry * ry + rz * rz), beyond = r - radius;
-        const double inverse = r > 0.0 ? 1.0 / r : 0.0, none = r > 0.0 ? 0.0 : 1.0;
+        const double square = rx * rx + ry * ry + rz * rz;
+        const double some = inverse_root_double(square), beyond = square * some - radius;
+        const double inverse = square > 0.0 ? some : 0.0, none = square > 0.0 ? 0.0 : 1.0;
         l->ax[c] = beyond * (inverse * rx + none * across.x);
         l->ay[c] = beyond * (inverse * ry + none * across.y);
         l->az[c] = beyond * (inverse * rz + none * across.z);
-        l->curvature[c] = (beyond > 0.0 ? 1.0 : -1.0) / radius;
+        l->curvature[c] = beyond > 0.0 ? curvature : -curvature;
         l->part[c] = WALL_FACE;
     }
 }

@@ -28,7 +28,7 @@ static void view(const void *shape, int element, const vec3 *x, struct wall_view
 
 static void views(const void *shape, struct wall_looks *l)
 {
-    wall_strip_views(shape, l);
+    wall_strip_views(shape, 1, l);
 }
 
 static bool flat(const void *shape, int element, const vec3 *x, struct wall_flat *plane,

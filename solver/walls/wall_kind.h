@@ -140,8 +140,8 @@ struct wall_strip {
     double h0, r0, h1, r1;
 };
 void wall_strip_view(const struct wall_strip *s, const vec3 *x, struct wall_view *out);
-/* Of strips that share foot and axis: element k is strip[k]. */
-void wall_strip_views(const struct wall_strip *strip, struct wall_looks *l);
+/* Of n strips that share foot and axis: element k is strip[k]. */
+void wall_strip_views(const struct wall_strip *strip, int n, struct wall_looks *l);
 bool wall_strip_flat(const struct wall_strip *s, const vec3 *x, struct wall_flat *plane,
                      double *within); /* of a disc */
 void wall_strip_draw(const struct wall_strip *s, struct wall_canvas *c);
