@@ -158,46 +158,46 @@ static void turn_memory(const struct sim *s, const struct wall_pose *pose, struc
     }
 }
 
-/* Velocities at the contact relative to the wall's, which has one of each kind all over if it does not
- * turn; from the centres', spins and levers. vn from the centres' alone. */
-static void approach(struct block *b, vec3 half, vec3 full)
+/* m/s, rad/s, of a wall: of its pivot, spin; at the half and at the full step. */
+struct rates {
+    vec3 half, full, half_spin, full_spin;
+};
+
+/* Velocities at the contact relative to the wall's, from those of the centre, spin and lever, and where it
+ * turns by the lever from its pivot; vn from the centre's alone. */
+static inline __attribute__((always_inline)) void
+approach(struct block *b, const struct sight *v, const struct rates *r, bool turns)
 {
     struct touch *const t = &b->t;
-    const real hx = (real)half.x, hy = (real)half.y, hz = (real)half.z;
-    const real fx = (real)full.x, fy = (real)full.y, fz = (real)full.z;
+    const struct wall_looks *const l = &v->look;
+    const real ux = (real)r->half.x, uy = (real)r->half.y, uz = (real)r->half.z;
+    const real gx = (real)r->full.x, gy = (real)r->full.y, gz = (real)r->full.z;
+    const real hx = (real)r->half_spin.x, hy = (real)r->half_spin.y, hz = (real)r->half_spin.z;
+    const real fx = (real)r->full_spin.x, fy = (real)r->full_spin.y, fz = (real)r->full_spin.z;
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const real px = b->px[c], py = b->py[c], pz = b->pz[c];
         const real x = b->l.ix[c], y = b->l.iy[c], z = b->l.iz[c];
-        t->vx[c] = fma(py, z, fma(-pz, y, t->vx[c] - hx));
-        t->vy[c] = fma(pz, x, fma(-px, z, t->vy[c] - hy));
-        t->vz[c] = fma(px, y, fma(-py, x, t->vz[c] - hz));
-        t->wx[c] = px;
-        t->wy[c] = py;
-        t->wz[c] = pz;
-        t->vn[c] = fma(t->nx[c], b->vx[c] - fx,
-                       fma(t->ny[c], b->vy[c] - fy, t->nz[c] * (b->vz[c] - fz)));
-    }
-}
-
-/* What a wall's turning adds, by the levers from its pivot. */
-static void turn_along(struct block *b, const struct sight *v, vec3 half, vec3 full)
-{
-    struct touch *const t = &b->t;
-    const struct wall_looks *const l = &v->look;
-    const vec3 h = half, f = full;
-#pragma omp simd
-    for (int c = 0; c < t->n; c++) {
-        const double x = v->arm[0][c] - l->ax[c], y = v->arm[1][c] - l->ay[c];
-        const double z = v->arm[2][c] - l->az[c];
-        t->vx[c] -= (real)(h.y * z - h.z * y);
-        t->vy[c] -= (real)(h.z * x - h.x * z);
-        t->vz[c] -= (real)(h.x * y - h.y * x);
-        t->wx[c] -= (real)h.x;
-        t->wy[c] -= (real)h.y;
-        t->wz[c] -= (real)h.z;
-        t->vn[c] -= t->nx[c] * (real)(f.y * z - f.z * y) +
-                    t->ny[c] * (real)(f.z * x - f.x * z) + t->nz[c] * (real)(f.x * y - f.y * x);
+        const real ax = turns ? (real)(v->arm[0][c] - l->ax[c]) : (real)0.0;
+        const real ay = turns ? (real)(v->arm[1][c] - l->ay[c]) : (real)0.0;
+        const real az = turns ? (real)(v->arm[2][c] - l->az[c]) : (real)0.0;
+        real vx = t->vx[c] - ux, vy = t->vy[c] - uy, vz = t->vz[c] - uz;
+        real wx = b->vx[c] - gx, wy = b->vy[c] - gy, wz = b->vz[c] - gz;
+        if (turns) {
+            vx -= fma(hy, az, -hz * ay);
+            vy -= fma(hz, ax, -hx * az);
+            vz -= fma(hx, ay, -hy * ax);
+            wx -= fma(fy, az, -fz * ay);
+            wy -= fma(fz, ax, -fx * az);
+            wz -= fma(fx, ay, -fy * ax);
+        }
+        t->vx[c] = fma(py, z, fma(-pz, y, vx));
+        t->vy[c] = fma(pz, x, fma(-px, z, vy));
+        t->vz[c] = fma(px, y, fma(-py, x, vz));
+        t->wx[c] = turns ? px - hx : px;
+        t->wy[c] = turns ? py - hy : py;
+        t->wz[c] = turns ? pz - hz : pz;
+        t->vn[c] = fma(t->nx[c], wx, fma(t->ny[c], wy, t->nz[c] * wz));
     }
 }
 
@@ -206,14 +206,15 @@ static void move(const struct sim *s, struct block *b, int wall, const struct si
     const struct wall *const w = &s->walls.wall[wall];
     const struct wall_pose *const pose = &w->pose;
     const vec3 belt = w->motion.surface, h = pose->half_spin, f = pose->spin;
-    const bool moves = w->motion.moves && !s->walls.still;
-    const bool turns = moves && (v3_dot(h, h) > 0.0 || v3_dot(f, f) > 0.0);
-    approach(b, moves ? v3_add(belt, pose->half) : belt,
-             moves ? v3_add(belt, pose->velocity) : belt);
-    if (turns) {
-        turn_along(b, v, h, f);
-        turn_memory(s, pose, b);
+    struct rates r = {belt, belt, {0}, {0}};
+    if (w->motion.moves && !s->walls.still)
+        r = (struct rates){v3_add(belt, pose->half), v3_add(belt, pose->velocity), h, f};
+    if (v3_dot(r.half_spin, r.half_spin) + v3_dot(r.full_spin, r.full_spin) == 0.0) {
+        approach(b, v, &r, false);
+        return;
     }
+    approach(b, v, &r, true);
+    turn_memory(s, pose, b);
 }
 
 /* Reduced masses and radii: on a curved wall those of the sphere that touches a plane like this one. Overlaps

@@ -76,68 +76,79 @@ static void by_one(const struct wall *w, struct wall_looks *l)
     }
 }
 
-static void come_in(const struct sim *s, const struct wall *w, struct wall_looks *l,
-                    const double (*point)[WALL_LOOKS])
+/* Points to their images; arms from the pivot. */
+static void come_near(const struct sim *s, const struct wall *w, struct wall_looks *l,
+                      const double (*point)[WALL_LOOKS], double (*arm)[WALL_LOOKS])
 {
-    const struct wall_pose *const p = &w->pose;
     const vec3 pivot = w->motion.pivot;
-    if (p->moved)
-        shift(l->n, v3_scale(-1.0, p->shift), l->x, l->y, l->z);
+    if (w->pose.moved)
+        shift(l->n, v3_scale(-1.0, w->pose.shift), l->x, l->y, l->z);
     if (s->walls.periodic) {
         double middle[3][WALL_LOOKS];
         middles(w, l, point, middle);
         nearest(&s->domain, l, middle);
     }
-    if (p->turned) {
-        shift(l->n, v3_scale(-1.0, pivot), l->x, l->y, l->z);
-        turn(p->turn, true, l->n, l->x, l->y, l->z);
-        shift(l->n, pivot, l->x, l->y, l->z);
-    }
-}
-
-static void go_out(const struct wall *w, struct wall_looks *l, double (*arm)[WALL_LOOKS])
-{
-    const struct wall_pose *const p = &w->pose;
-    const vec3 pivot = w->motion.pivot;
 #pragma omp simd
     for (int c = 0; c < l->n; c++) {
         arm[0][c] = l->x[c] - pivot.x;
         arm[1][c] = l->y[c] - pivot.y;
         arm[2][c] = l->z[c] - pivot.z;
     }
-    if (p->turned) {
-        turn(p->turn, false, l->n, l->ax, l->ay, l->az);
-        turn(p->turn, false, l->n, arm[0], arm[1], arm[2]);
-    }
 }
 
 void walls_look(const struct sim *s, const struct wall *w, struct wall_looks *l,
                 double (*arm)[WALL_LOOKS])
 {
-    come_in(s, w, l, NULL);
+    const struct wall_pose *const p = &w->pose;
+    const vec3 pivot = w->motion.pivot;
+    come_near(s, w, l, NULL, arm);
+    if (p->turned) {
+        shift(l->n, v3_scale(-1.0, pivot), l->x, l->y, l->z);
+        turn(p->turn, true, l->n, l->x, l->y, l->z);
+        shift(l->n, pivot, l->x, l->y, l->z);
+    }
     memset(l->hollow, 0, sizeof l->hollow);
     if (w->kind->views)
         w->kind->views(w->shape, l);
     else
         by_one(w, l);
-    go_out(w, l, arm);
+    if (p->turned)
+        turn(p->turn, false, l->n, l->ax, l->ay, l->az);
 }
 
-void walls_look_flat(const struct sim *s, const struct wall *w,
-                     const double (*plane)[WALL_LOOKS], struct wall_looks *l,
-                     double (*arm)[WALL_LOOKS])
+/* Above planes through `from` with these normals. */
+static void stand(struct wall_looks *l, const double (*from)[WALL_LOOKS],
+                  const double (*normal)[WALL_LOOKS])
 {
-    come_in(s, w, l, plane);
 #pragma omp simd
     for (int c = 0; c < l->n; c++) {
-        const double x = l->x[c] - plane[0][c], y = l->y[c] - plane[1][c];
-        const double z = l->z[c] - plane[2][c];
-        const double nx = plane[3][c], ny = plane[4][c], nz = plane[5][c];
+        const double x = l->x[c] - from[0][c], y = l->y[c] - from[1][c];
+        const double z = l->z[c] - from[2][c];
+        const double nx = normal[0][c], ny = normal[1][c], nz = normal[2][c];
         const double h = x * nx + y * ny + z * nz;
         l->ax[c] = h * nx;
         l->ay[c] = h * ny;
         l->az[c] = h * nz;
         l->curvature[c] = 0.0;
     }
-    go_out(w, l, arm);
+}
+
+void walls_look_flat(const struct sim *s, const struct wall *w,
+                     const double (*plane)[WALL_LOOKS], struct wall_looks *l,
+                     double (*arm)[WALL_LOOKS])
+{
+    const struct wall_pose *const p = &w->pose;
+    const vec3 pivot = w->motion.pivot;
+    come_near(s, w, l, plane, arm);
+    if (!p->turned) {
+        stand(l, plane, plane + 3);
+        return;
+    }
+    double turned[6][WALL_LOOKS]; /* the planes as they are now */
+    memcpy(turned, plane, sizeof turned);
+    shift(l->n, v3_scale(-1.0, pivot), turned[0], turned[1], turned[2]);
+    turn(p->turn, false, l->n, turned[0], turned[1], turned[2]);
+    shift(l->n, pivot, turned[0], turned[1], turned[2]);
+    turn(p->turn, false, l->n, turned[3], turned[4], turned[5]);
+    stand(l, (const double(*)[WALL_LOOKS])turned, (const double(*)[WALL_LOOKS])turned + 3);
 }
