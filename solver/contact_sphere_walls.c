@@ -130,32 +130,49 @@ static void reach_out(const struct sim *s, struct block *b, const struct wall_lo
     shape.overlaps(&s->grains, &b->c, t, &b->l);
 }
 
-/* What the contacts remember turns with the wall about the normal, by the angle 2 h, h = tan(h') the
- * series of the tangent: a rotation whatever the angle, and by that angle to round-off where it is
- * small. With the normal, laws turn it. */
-static void turn_memory(const struct sim *s, const struct wall_pose *pose, struct block *b)
+/* What the contacts remember turns with the wall about the normal, by the angle w . n dt: sine and cosine by their
+ * series, to round-off up to SMALL; beyond, from the tangent of half of it, whose series then gives a
+ * rotation all the same. With the normal, laws turn it. */
+#define SMALL 0.1
+
+static inline __attribute__((always_inline)) void
+turn_about(const struct touch *t, real (*kept)[TOUCH], real wx, real wy, real wz, bool small)
 {
-    const struct touch *const t = &b->t;
-    const real half_dt = (real)(0.5 * s->run.dt);
-    const real wx = (real)pose->half_spin.x * half_dt, wy = (real)pose->half_spin.y * half_dt;
-    const real wz = (real)pose->half_spin.z * half_dt;
-    real *const restrict hx = b->kept[0], *const restrict hy = b->kept[1];
-    real *const restrict hz = b->kept[2];
-    if (contact_history < 3)
-        return;
+    real *const restrict hx = kept[0], *const restrict hy = kept[1];
+    real *const restrict hz = kept[2];
 #pragma omp simd
     for (int c = 0; c < t->n; c++) {
         const real nx = t->nx[c], ny = t->ny[c], nz = t->nz[c];
         const real x = hx[c], y = hy[c], z = hz[c];
         const real a = wx * nx + wy * ny + wz * nz, q = a * a;
-        const real h = a * (1.0 + q * (1.0 / 3.0 + q * (2.0 / 15.0 + q * (17.0 / 315.0))));
-        const real even = 1.0 / (1.0 + h * h), sine = 2.0 * h * even;
-        const real less = 2.0 * h * h * even; /* 1 - cosine */
+        real sine, less; /* less: 1 - cosine */
+        if (small) {
+            sine = a * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0))));
+            less = q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q * (1.0 / 40320.0))));
+        } else {
+            const real h =
+                0.5 * a * (1.0 + q * (1.0 / 12.0 + q * (1.0 / 120.0 + q * (17.0 / 20160.0))));
+            const real even = 1.0 / (1.0 + h * h);
+            sine = 2.0 * h * even;
+            less = 2.0 * h * h * even;
+        }
         const real along = x * nx + y * ny + z * nz;
         hx[c] = x - less * (x - along * nx) + sine * (ny * z - nz * y);
         hy[c] = y - less * (y - along * ny) + sine * (nz * x - nx * z);
         hz[c] = z - less * (z - along * nz) + sine * (nx * y - ny * x);
     }
+}
+
+static void turn_memory(const struct sim *s, const struct wall_pose *pose, struct block *b)
+{
+    const vec3 by = v3_scale(s->run.dt, pose->half_spin);
+    const real wx = (real)by.x, wy = (real)by.y, wz = (real)by.z;
+    if (contact_history < 3)
+        return;
+    if (v3_norm(by) < SMALL)
+        turn_about(&b->t, b->kept, wx, wy, wz, true);
+    else
+        turn_about(&b->t, b->kept, wx, wy, wz, false);
 }
 
 /* m/s, rad/s, of a wall: of its pivot, spin; at the half and at the full step. */
