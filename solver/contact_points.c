@@ -119,9 +119,12 @@ static void enter_points(struct sim *s, struct block *b, const struct cut *cut, 
     l->live[slot] = overlaps ? LIVE_OVERLAP : n > 0 || shape.memory > 0 ? LIVE_REACH : 0;
 }
 
-/* m; x_i - x_j by the nearest image, as the loop of spheres has it. */
+/* m; x_i - x_j by the nearest image, as the loop of spheres has it; in single precision from the
+ * places in double, as the geometry of shapes is: nothing of the overlap is lost. */
 static vec3 apart(const struct sim *s, int i, int j)
 {
+    if (BODY_IS_FLOAT)
+        return domain_minimum_image(&s->domain, v3_sub(s->grains.pos[i], s->grains.pos[j]));
     const struct frame *const f = &s->frame;
     const real8 d = body_apart(&s->bodies[i], &s->bodies[j]);
     real x[3];

@@ -106,12 +106,6 @@ static void read_forms(struct grains *g, struct scene *scene)
                                       .points_most = 1};
     if (shape.init)
         shape.init(scene, g, form);
-    if (shape.path->turning && BODY_IS_FLOAT)
-        scene_error(
-            scene, "modules", NULL, "shape",
-            "%s is not to be had in single precision (make REAL=float): only spheres and "
-            "discs are",
-            shape_about.name);
     if (shape.path->turning) {
         scene_declare(scene, shape.path->turning->keys);
         shape.path->turning->read(g, scene);

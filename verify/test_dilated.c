@@ -444,6 +444,10 @@ int main(void)
         check_bounce(way[k], "plane", "");
         check_bounce(way[k], "rib narrower than it", PLATE("48 30 20", "4 0 0"));
         check_bounce(way[k], "table over its edge", PLATE("52.5 30 20", "30 0 0"));
+        if (k == 0 || k == 2)
+            check_bounce(way[k], "block over its edge",
+                         "[wall p]\nkind = box\nfrom = 52.5 30 10 mm\nto = 80 70 20 "
+                         "mm\nmaterial = m\n");
     }
     check_slope();
     check_rocking(0.1);

@@ -100,6 +100,16 @@ static bool behind(const void *shape, vec3 x)
     return b->side == SIDE_IN ? !inside : b->side == SIDE_OUT && inside;
 }
 
+static int corners(const void *shape, int element, vec3 out[4])
+{
+    vec3 edge[2];
+    out[0] = corner(shape, element, edge);
+    out[1] = v3_add(out[0], edge[0]);
+    out[2] = v3_add(out[1], edge[1]);
+    out[3] = v3_add(out[0], edge[1]);
+    return 4;
+}
+
 static void bounds(const void *shape, vec3 *low, vec3 *high)
 {
     const struct box *const b = shape;
@@ -128,5 +138,6 @@ const struct wall_kind wall_box = {.name = "box",
                                    .views = views,
                                    .flat = flat,
                                    .behind = behind,
+                                   .corners = corners,
                                    .bounds = bounds,
                                    .draw = draw};
