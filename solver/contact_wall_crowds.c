@@ -145,8 +145,9 @@ static void hide(const struct crowds *all, const struct wall_crowd *crowd)
 {
     const int n = crowd->to - crowd->from;
     const struct crowd_entry *const e = &all->pack->entry[crowd->from];
-    struct facing *const f = xalloc((size_t)n, sizeof *f);
-    int *const place = xalloc((size_t)n, sizeof *place), facings = 0;
+    struct facing some[FEW], *const f = n > FEW ? xalloc((size_t)n, sizeof *f) : some;
+    int places[FEW], *const place = n > FEW ? xalloc((size_t)n, sizeof *place) : places;
+    int facings = 0;
     const vec3 centre = centre_of(all->s, all->balls, e->i, e->ball);
     const double same = SAME * all->s->grains.radius[e->i];
     for (int k = 0; k < n; k++) {
@@ -167,8 +168,10 @@ static void hide(const struct crowds *all, const struct wall_crowd *crowd)
         if (!all->hides[entry - all->from])
             all->hides[entry - all->from] = facing_hidden(all->s, f, facings, k, same);
     }
-    xfree(f);
-    xfree(place);
+    if (n > FEW) {
+        xfree(f);
+        xfree(place);
+    }
 }
 
 /* Those that are hidden by others count no more. */

@@ -128,23 +128,23 @@ static bool faces(const struct eight *e, struct wall_looks *l, int c)
     return some != 0;
 }
 
-/* From its nearest point of a segment to a point. */
+/* From its nearest point of a segment to a point. Its numbers are doubles too: lanes of one width. */
 struct rim {
     double x, y, z, square; /* m, m2 */
-    int edge, part;         /* number of the edge */
+    double edge, part;      /* number of the edge; enum wall_part */
 };
 
 #define RIM_INLINE static inline __attribute__((always_inline))
 
 /* The segment along e from the origin, where it is nearer to f than what was found before. */
 RIM_INLINE struct rim nearer_rim(struct rim r, double fx, double fy, double fz, double ex,
-                                 double ey, double ez, int edge)
+                                 double ey, double ez, double edge)
 {
     const double t = (fx * ex + fy * ey + fz * ez) / (ex * ex + ey * ey + ez * ez);
     const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
     const double x = fx - at * ex, y = fy - at * ey, z = fz - at * ez;
     const double square = x * x + y * y + z * z;
-    const int part = at == t ? WALL_EDGE : WALL_VERTEX;
+    const double part = at == t ? (double)WALL_EDGE : (double)WALL_VERTEX;
     r.x = square < r.square ? x : r.x;
     r.y = square < r.square ? y : r.y;
     r.z = square < r.square ? z : r.z;
@@ -157,8 +157,10 @@ RIM_INLINE struct rim nearer_rim(struct rim r, double fx, double fy, double fz, 
 /* Those beside their triangle: the nearest points of its rim. */
 static void rims(const struct eight *e, struct wall_looks *l, int from)
 {
-    double r[ROWS][EIGHT];
+    _Alignas(64) double r[ROWS][EIGHT], face[EIGHT], edge[EIGHT], part[EIGHT], side[EIGHT];
     memcpy(r, e->row, sizeof r);
+    for (int k = 0; k < EIGHT; k++)
+        face[k] = l->part[from + k] == WALL_FACE;
 #pragma omp simd
     for (int k = 0; k < EIGHT; k++) {
         const int c = from + k;
@@ -166,18 +168,23 @@ static void rims(const struct eight *e, struct wall_looks *l, int from)
         const double z = l->z[c] - r[A + 2][k];
         const double ux = r[E1][k], uy = r[E1 + 1][k], uz = r[E1 + 2][k];
         const double vx = r[E2][k], vy = r[E2 + 1][k], vz = r[E2 + 2][k];
-        const double h = x * r[NORMAL][k] + y * r[NORMAL + 1][k] + z * r[NORMAL + 2][k];
-        const int face = l->part[c] == WALL_FACE, hollow = (int)r[HOLLOW][k];
-        struct rim n = {.square = (double)INFINITY, .part = WALL_EDGE};
-        n = nearer_rim(n, x, y, z, ux, uy, uz, 0);
-        n = nearer_rim(n, x, y, z, vx, vy, vz, 1);
-        n = nearer_rim(n, x - ux, y - uy, z - uz, vx - ux, vy - uy, vz - uz, 2);
-        const int side = h > 0.0 ? hollow : hollow / HOLLOW_BACK;
-        l->ax[c] = face ? l->ax[c] : n.x;
-        l->ay[c] = face ? l->ay[c] : n.y;
-        l->az[c] = face ? l->az[c] : n.z;
-        l->part[c] = face ? WALL_FACE : n.part;
-        l->hollow[c] = (side >> n.edge) & (n.part == WALL_EDGE) & !face;
+        struct rim n = {.square = (double)INFINITY, .part = (double)WALL_EDGE};
+        n = nearer_rim(n, x, y, z, ux, uy, uz, 0.0);
+        n = nearer_rim(n, x, y, z, vx, vy, vz, 1.0);
+        n = nearer_rim(n, x - ux, y - uy, z - uz, vx - ux, vy - uy, vz - uz, 2.0);
+        side[k] = x * r[NORMAL][k] + y * r[NORMAL + 1][k] + z * r[NORMAL + 2][k];
+        edge[k] = n.edge;
+        part[k] = n.part;
+        l->ax[c] = face[k] > 0.0 ? l->ax[c] : n.x;
+        l->ay[c] = face[k] > 0.0 ? l->ay[c] : n.y;
+        l->az[c] = face[k] > 0.0 ? l->az[c] : n.z;
+    }
+    for (int k = 0; k < EIGHT; k++) {
+        const int bits = (int)r[HOLLOW][k], of = side[k] > 0.0 ? bits : bits / HOLLOW_BACK;
+        if (face[k] > 0.0)
+            continue;
+        l->part[from + k] = (int)part[k];
+        l->hollow[from + k] = (of >> (int)edge[k]) & (l->part[from + k] == WALL_EDGE);
     }
 }
 
