@@ -20,7 +20,7 @@
 /* No frozen grain: the skins leave out the drift, which is most of the motion, walls see all of it. */
 #define DRIFT                                                                                  \
     "[grains a]\nsizes = uniform\nsizes_by = number\ndiameter_min = 0.35 mm\n"                 \
-    "diameter_max = 7 mm\ndensity = 2385 kg/m3\nfill = random\ncount = 90\n"                  \
+    "diameter_max = 7 mm\ndensity = 2385 kg/m3\nfill = random\ncount = 90\n"                   \
     "velocity = 0.7 -0.4 -3.1 m/s\nmaterial = m\n"                                             \
     "[grains b]\ndiameter = 0.37 mm\ndensity = 1723 kg/m3\nfill = random\ncount = 900\n"       \
     "velocity = 0.6 -0.5 -2.9 m/s\nmaterial = m\n"                                             \
