@@ -80,7 +80,7 @@ static struct sim *look(const char *scene, int looks, long most_least)
 
 int main(void)
 {
-    struct sim *s = look(DRIFT, 60, 10);
+    struct sim *s = look(DRIFT, 100, 10);
     check(s->neighbours.drift_speed > 1.0, "the grains drift at %.3g m/s",
           s->neighbours.drift_speed);
     sim_free(s);
