@@ -74,7 +74,7 @@ static void sort_slots(const struct sim *s, struct sorted *out)
         out->begin[k] = xalloc((size_t)nb->runs + 1, sizeof(int));
     }
     for (int run = 0; run < nb->runs; run++) {
-        const int *const active = &nb->pairs.active[nb->pairs.begin[run * RUN]];
+        const int *const active = &nb->pairs.active[nb->pairs.begin[run * s->neighbours.run]];
         for (int a = 0; a < nb->pairs.n_active[run]; a++) {
             const enum told k = kind_of(s, &cut, active[a]);
             out->slot[k][out->n[k]++] = active[a];
@@ -103,7 +103,7 @@ static double cost(struct sim *s, const struct sorted *l, int kind, const real *
                nb->pairs.n * (size_t)nb->rows * sizeof *nb->pairs.memory);
         const double start = now();
         for (int run = 0; run < nb->runs; run++) {
-            const struct target to = {.first = run * RUN,
+            const struct target to = {.first = run * s->neighbours.run,
                                       .sums = &s->contacts->sums[neighbours_entry(nb, run, 0)],
                                       .wall =
                                           &s->contacts->wall_force[(size_t)run * s->walls.n],

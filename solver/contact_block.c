@@ -239,7 +239,7 @@ static void work_pairs(struct sim *s, struct block *b, const int *slot, int coun
                        const struct target *to)
 {
     struct slots *const l = &s->neighbours.pairs;
-    const struct pack *const pack = &s->contacts->pack[to->first / RUN];
+    const struct pack *const pack = &s->contacts->pack[to->first / s->neighbours.run];
     const int rows = s->neighbours.rows;
     const bool far = (size_t)s->grains.n * sizeof *s->bodies > NEAR_CACHE;
     spheres_open(s, b, to);

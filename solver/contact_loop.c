@@ -186,14 +186,15 @@ static void choose_pairs(struct sim *s, int run, int first, int last)
 
 static int run_end(const struct sim *s, int run)
 {
-    return (run + 1) * RUN < s->grains.n ? (run + 1) * RUN : s->grains.n;
+    return (run + 1) * s->neighbours.run < s->grains.n ? (run + 1) * s->neighbours.run
+                                                       : s->grains.n;
 }
 
 bool contact_asks_places(const struct sim *s, int run)
 {
     const int *const walls = s->neighbours.walls.begin;
     return !shape.path->from_bodies || bond_history > 0 ||
-           walls[run_end(s, run)] > walls[run * RUN];
+           walls[run_end(s, run)] > walls[run * s->neighbours.run];
 }
 
 static void work_run(struct sim *s, int run, double time, bool choose, bool asked)
@@ -201,7 +202,7 @@ static void work_run(struct sim *s, int run, double time, bool choose, bool aske
     struct neighbours *const nb = &s->neighbours;
     struct contact_work *const w = s->contacts;
     struct report *const r = &w->report[run];
-    const int first = run * RUN;
+    const int first = run * s->neighbours.run;
     const int last = run_end(s, run);
     const bool walls = nb->walls.begin[last] > nb->walls.begin[first];
     const struct target to = {.first = first,

@@ -155,7 +155,7 @@ void members_forget_reports(struct sim *s, bool walls, const int *slot, int coun
 static void work_pairs(struct sim *s, struct block *b, const int *slot, int count,
                        const struct target *to)
 {
-    const struct pack *const pack = &s->contacts->pack[to->first / RUN];
+    const struct pack *const pack = &s->contacts->pack[to->first / s->neighbours.run];
     const int rows = laws_rows();
     if (to->asked)
         members_forget_reports(s, false, slot, count);

@@ -154,7 +154,7 @@ void members_take(struct sim *s, int run)
     const struct neighbours *const nb = &s->neighbours;
     const struct slots *const l = &nb->pairs;
     const struct grains *const g = &s->grains;
-    const int *const active = &l->active[l->begin[run * RUN]];
+    const int *const active = &l->active[l->begin[run * s->neighbours.run]];
     struct filling f = open_filling(s, run);
     struct shape_pair pair = {0};
     int before = -1;
@@ -190,7 +190,7 @@ void members_put_back(struct sim *s, int run)
     if (f.pack->n == 0) /* a run that is no longer, perhaps */
         return;
     for (int k = 0; k < l->n_active[run]; k++) {
-        const int slot = l->active[l->begin[run * RUN] + k];
+        const int slot = l->active[l->begin[run * s->neighbours.run] + k];
         l->live[slot] = 0;
         points_use(&f.cut, &l->memory[(size_t)slot * s->neighbours.rows], 0);
     }

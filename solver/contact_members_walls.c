@@ -197,7 +197,8 @@ void members_walls(struct sim *s, int run, struct block *b, const struct target 
     const struct report *const r = to->report;
     const bool before = r->too_deep;
     if (to->asked)
-        members_forget_reports(s, true, &l->active[l->begin[run * RUN]], l->n_active[run]);
+        members_forget_reports(s, true, &l->active[l->begin[run * s->neighbours.run]],
+                               l->n_active[run]);
     ball_walls(s, run, b, to, &balls);
     if (r->too_deep && !before)
         find_deep(s, run, to->report);

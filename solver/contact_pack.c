@@ -24,7 +24,7 @@ void pack_fill(struct sim *s, int run)
 {
     const struct neighbours *const nb = &s->neighbours;
     const struct slots *const l = &nb->pairs;
-    const int *const active = &l->active[l->begin[run * RUN]];
+    const int *const active = &l->active[l->begin[run * s->neighbours.run]];
     const int n = l->n_active[run], rows = nb->rows;
     struct pack *const p = &s->contacts->pack[run];
     reserve(p, n, rows);
@@ -50,7 +50,7 @@ void pack_put_back(struct sim *s, int run)
     struct pack *const p = &s->contacts->pack[run];
     if (p->n == 0) /* a run that is no longer, perhaps */
         return;
-    const int *const active = &l->active[l->begin[run * RUN]];
+    const int *const active = &l->active[l->begin[run * s->neighbours.run]];
     for (int k = 0; k < p->n; k++) {
         const struct pack_block *const b = pack_block(p, k / TOUCH, rows);
         const int c = k % TOUCH, slot = active[k];

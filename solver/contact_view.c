@@ -83,8 +83,9 @@ static void look(const struct sim *s, const struct slots *l, bool walls, const i
 static size_t look_run(const struct sim *s, const struct slots *l, bool walls, int run,
                        struct seen *out)
 {
-    const int first = run * RUN;
-    const int last = first + RUN < s->grains.n ? first + RUN : s->grains.n;
+    const int first = run * s->neighbours.run;
+    const int last =
+        first + s->neighbours.run < s->grains.n ? first + s->neighbours.run : s->grains.n;
     int slot[TOUCH], n = 0;
     size_t total = 0;
     for (int k = l->begin[first]; k < l->begin[last]; k++) {

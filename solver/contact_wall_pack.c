@@ -31,7 +31,7 @@ void wall_pack_free(struct wall_pack *p)
 void wall_pack_sort(const struct sim *s, struct wall_pack *p, int run)
 {
     const struct slots *const l = &s->neighbours.walls;
-    const int *const active = &l->active[l->begin[run * RUN]];
+    const int *const active = &l->active[l->begin[run * s->neighbours.run]];
     const int n = l->n_active[run];
     int *const begin = xalloc((size_t)s->walls.n + 1, sizeof *begin);
     reserve((void **)&p->order, &p->order_room, n, sizeof *p->order);

@@ -9,7 +9,7 @@
 static int count_halo(struct neighbours *nb, int run, int n, int (*mark)[2], int *halo)
 {
     const struct slots *const l = &nb->pairs;
-    const int first = run * RUN, last = first + RUN < n ? first + RUN : n;
+    const int first = run * nb->run, last = first + nb->run < n ? first + nb->run : n;
     int count = 0;
     for (int t = l->begin[first]; t < l->begin[last]; t++) {
         const int j = l->other[t];
@@ -22,7 +22,7 @@ static int count_halo(struct neighbours *nb, int run, int n, int (*mark)[2], int
             mark[j][1] = count;
             halo[count++] = j;
         }
-        nb->to[t] = RUN + mark[j][1];
+        nb->to[t] = nb->run + mark[j][1];
     }
     return count;
 }
@@ -37,16 +37,16 @@ static void list_incoming(struct neighbours *nb, const int *halo)
     nb->begin_in = xalloc((size_t)nb->runs + 1, sizeof *nb->begin_in);
     nb->in = xalloc((size_t)entries + IN_AHEAD, sizeof *nb->in);
     for (int e = 0; e < entries; e++)
-        nb->begin_in[halo[e] / RUN + 1]++;
+        nb->begin_in[halo[e] / nb->run + 1]++;
     for (int run = 0; run < nb->runs; run++) {
         nb->begin_in[run + 1] += nb->begin_in[run];
         next[run] = nb->begin_in[run];
     }
     for (int run = 0; run < nb->runs; run++)
         for (int e = nb->halo_begin[run]; e < nb->halo_begin[run + 1]; e++)
-            nb->in[next[halo[e] / RUN]++] = (struct incoming){
-                .entry = (int)neighbours_entry(nb, run, RUN + e - nb->halo_begin[run]),
-                .local = halo[e] % RUN};
+            nb->in[next[halo[e] / nb->run]++] = (struct incoming){
+                .entry = (int)neighbours_entry(nb, run, nb->run + e - nb->halo_begin[run]),
+                .local = halo[e] % nb->run};
     xfree(next);
 }
 
@@ -63,13 +63,14 @@ void halos_make(struct neighbours *nb, int n)
         int(*const mark)[2] = xalloc((size_t)n + 1, sizeof *mark);
 #pragma omp for schedule(static)
         for (int run = 0; run < nb->runs; run++)
-            nb->halo_begin[run + 1] = count_halo(nb, run, n, mark, halo + l->begin[run * RUN]);
+            nb->halo_begin[run + 1] =
+                count_halo(nb, run, n, mark, halo + l->begin[run * nb->run]);
         xfree(mark);
     }
     for (int run = 0; run < nb->runs; run++) {
         const int count = nb->halo_begin[run + 1];
         nb->halo_begin[run + 1] = nb->halo_begin[run] + count;
-        memmove(halo + nb->halo_begin[run], halo + l->begin[run * RUN],
+        memmove(halo + nb->halo_begin[run], halo + l->begin[run * nb->run],
                 (size_t)count * sizeof *halo);
     }
     list_incoming(nb, halo);

@@ -111,7 +111,8 @@ static inline double pace_of(const struct sim *s, int i, const struct motion_sta
  * at hand. */
 static int run_end(const struct sim *s, int run)
 {
-    return (run + 1) * RUN < s->grains.n ? (run + 1) * RUN : s->grains.n;
+    return (run + 1) * s->neighbours.run < s->grains.n ? (run + 1) * s->neighbours.run
+                                                       : s->grains.n;
 }
 
 /* The pace of those parts of a grain that move fastest by its spin. */
@@ -129,8 +130,8 @@ void motion_start(struct sim *s, int parity)
     const struct kicks k = kicks_of(s);
     double fastest = 0.0, tip = 0.0;
 #pragma omp for schedule(static) nowait
-    for (int run = 0; run < (g->n + RUN - 1) / RUN; run++)
-        for (int i = run * RUN; i < run_end(s, run); i++) {
+    for (int run = 0; run < (g->n + s->neighbours.run - 1) / s->neighbours.run; run++)
+        for (int i = run * s->neighbours.run; i < run_end(s, run); i++) {
             if (g->inv_mass[i] == 0.0)
                 continue;
             struct body *const b = &s->bodies[i];
@@ -169,8 +170,8 @@ static void end_steps(struct sim *s)
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < s->neighbours.runs; run++) {
         struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
-        for (int i = run * RUN; i < run_end(s, run); i++) {
-            const struct wrench f = forces(s, &k, &sums[i - run * RUN], i);
+        for (int i = run * s->neighbours.run; i < run_end(s, run); i++) {
+            const struct wrench f = forces(s, &k, &sums[i - run * s->neighbours.run], i);
             struct motion_state m = body_state(&s->bodies[i], &s->rests[i]);
             g->force[i] = narrow(f.force);
             g->torque[i] = narrow(f.torque);
@@ -194,17 +195,17 @@ static inline __attribute__((always_inline)) double
 turn_run(struct sim *s, const struct kicks *k, int run, struct sums *sums, bool places)
 {
     const struct frame frame = s->frame;
-    struct body *const restrict bodies = &s->bodies[run * RUN];
-    struct body_rest *const restrict rests = &s->rests[run * RUN];
-    vec3 *const restrict pos = &s->grains.pos[run * RUN];
-    const float *const restrict paces = &s->neighbours.pace[run * RUN];
+    struct body *const restrict bodies = &s->bodies[run * s->neighbours.run];
+    struct body_rest *const restrict rests = &s->rests[run * s->neighbours.run];
+    vec3 *const restrict pos = &s->grains.pos[run * s->neighbours.run];
+    const float *const restrict paces = &s->neighbours.pace[run * s->neighbours.run];
     const double4 drift = s->neighbours.drift;
-    const int n = run_end(s, run) - run * RUN;
+    const int n = run_end(s, run) - run * s->neighbours.run;
     double fastest = 0.0;
     for (int i = 0; i < n; i++) {
         struct body *const b = &bodies[i];
         struct body_rest *const r = &rests[i];
-        const struct wrench f = forces(s, k, &sums[i], run * RUN + i);
+        const struct wrench f = forces(s, k, &sums[i], run * s->neighbours.run + i);
         if (b->vel[3] == (real)0.0)
             continue;
         struct motion_state m = body_state(b, r);
@@ -225,10 +226,10 @@ static double turn_bodies(struct sim *s, const struct kicks *k, int run, struct 
                           double *tip)
 {
     double fastest = 0.0;
-    for (int i = run * RUN; i < run_end(s, run); i++) {
+    for (int i = run * s->neighbours.run; i < run_end(s, run); i++) {
         struct body *const b = &s->bodies[i];
         struct body_rest *const r = &s->rests[i];
-        const struct wrench f = forces(s, k, &sums[i - run * RUN], i);
+        const struct wrench f = forces(s, k, &sums[i - run * s->neighbours.run], i);
         if (b->vel[3] == (real)0.0)
             continue;
         struct motion_state m = body_state(b, r);
@@ -282,8 +283,8 @@ void motion_forces(struct sim *s)
 #pragma omp for schedule(static)
     for (int run = 0; run < s->neighbours.runs; run++) {
         struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
-        for (int i = run * RUN; i < run_end(s, run); i++) {
-            const struct wrench f = forces(s, &k, &sums[i - run * RUN], i);
+        for (int i = run * s->neighbours.run; i < run_end(s, run); i++) {
+            const struct wrench f = forces(s, &k, &sums[i - run * s->neighbours.run], i);
             s->grains.force[i] = narrow(f.force);
             s->grains.torque[i] = narrow(f.torque);
         }

@@ -220,7 +220,9 @@ void neighbours_rebuild(struct sim *s)
     contact_put_back(s);
     clock = timer_add(&s->timers, TIME_NEIGHBOURS, clock);
     int *const order = memory_order(s);
-    nb->runs = (s->grains.n + RUN - 1) / RUN;
+    for (nb->run = RUN_LEAST; nb->run < RUN_MOST && s->grains.n >= 2 * nb->run * RUNS_LEAST;)
+        nb->run *= 2;
+    nb->runs = (s->grains.n + nb->run - 1) / nb->run;
     bodies_sort(s, order, nb->listed);
     choose_skins(s);
     clock = timer_add(&s->timers, TIME_SORT, clock);

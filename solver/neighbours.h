@@ -23,7 +23,9 @@ struct scene;
 
 enum { LIVE_REACH = 1, LIVE_OVERLAP = 2 }; /* within the range of a law; overlapping */
 enum { IN_AHEAD = 16 };                    /* how far `in` may be read beyond its end */
-enum { RUN = 256 }; /* grains per run, the unit of work of the contact loop */
+/* Grains per run, the unit of work of the contact loop: many where there are many, since fewer of them then
+ * stand in halos; by their number alone. */
+enum { RUN_LEAST = 256, RUN_MOST = 1024, RUNS_LEAST = 16 };
 
 struct slots {
     size_t n, capacity;
@@ -50,10 +52,10 @@ struct neighbours {
     double4 drift;      /* m/s, that skins do not count */
     double drift_speed; /* m/s */
     int rows;           /* reals of memory per slot */
-    int runs;           /* of the grains at hand */
+    int run, runs;      /* grains per run; runs of the grains at hand */
     struct slots pairs, walls;
     int *to;         /* per pair slot: the other grain as its run counts it: own ones from 0,
-                           then its halo from RUN on */
+                           then its halo from `run` on */
     int *halo_begin; /* runs + 1: a run's halo are the grains of other runs in its slots */
     int *begin_in;   /* runs + 1 */
     struct incoming *in; /* of each run, in the order of the others */
@@ -108,7 +110,7 @@ struct ageing neighbours_ageing(const struct sim *s, bool new);
 /* Index of entry `local` of a run, when those of all runs stand one behind the other. */
 static inline size_t neighbours_entry(const struct neighbours *nb, int run, int local)
 {
-    return (size_t)run * RUN + (size_t)(nb->halo_begin[run] + local);
+    return (size_t)run * nb->run + (size_t)(nb->halo_begin[run] + local);
 }
 
 /* After the drift of a step of this parity: adds its largest way; false if the list is stale. */

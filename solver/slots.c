@@ -61,7 +61,7 @@ static void reserve(struct slots *l, size_t n, int grains, int rows)
     xfree(l->begin);
     xfree(l->n_active);
     slots_create(l, grains);
-    l->n_active = xalloc((size_t)(grains / RUN + 1), sizeof *l->n_active);
+    l->n_active = xalloc((size_t)(grains / RUN_LEAST + 1), sizeof *l->n_active);
     l->n = n;
     if (n > l->capacity || !l->owner) {
         const size_t room = n + n / 16 + 64;
@@ -141,7 +141,7 @@ void slots_fill(struct sim *s, struct slots *l, finder *find, const struct searc
 #pragma omp parallel for schedule(dynamic, 4)
     for (int run = 0; run < runs; run++) {
         int room = 0, count = 0;
-        for (int i = run * RUN; i < n && i < (run + 1) * RUN; i++) {
+        for (int i = run * s->neighbours.run; i < n && i < (run + 1) * s->neighbours.run; i++) {
             count = find(c, s, i, &found[run], &room, count);
             begin[i + 1] = count;
         }
@@ -149,7 +149,7 @@ void slots_fill(struct sim *s, struct slots *l, finder *find, const struct searc
     }
     reserve(l, number_runs(s, first, runs), n, rows);
     for (int run = 0; run < runs; run++) /* whole, since the next run's grains begin there */
-        for (int i = run * RUN; i < n && i < (run + 1) * RUN; i++)
+        for (int i = run * s->neighbours.run; i < n && i < (run + 1) * s->neighbours.run; i++)
             l->begin[i + 1] = first[run] + begin[i + 1];
 #pragma omp parallel for schedule(dynamic, 4)
     for (int run = 0; run < runs; run++) {
@@ -159,7 +159,7 @@ void slots_fill(struct sim *s, struct slots *l, finder *find, const struct searc
         memset(&l->live[first[run]], 0, (size_t)slots);
         memset(&l->memory[(size_t)first[run] * rows], 0,
                (size_t)slots * rows * sizeof *l->memory);
-        for (int i = run * RUN; i < n && i < (run + 1) * RUN; i++) {
+        for (int i = run * s->neighbours.run; i < n && i < (run + 1) * s->neighbours.run; i++) {
             for (int t = l->begin[i]; t < l->begin[i + 1]; t++)
                 l->owner[t] = i;
             if (order[i] < kept->n)
