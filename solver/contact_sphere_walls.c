@@ -75,7 +75,8 @@ static void gather(const struct sim *s, struct block *b, struct wall_looks *l)
 }
 
 /* Takes in a block of the pack. */
-static void take(const struct sim *s, struct block *b, struct wall_block *p, struct sight *v)
+static void take(const struct sim *s, struct block *b, struct wall_block *p, struct sight *v,
+                 bool asked)
 {
     const struct wall *const w = &s->walls.wall[p->wall];
     struct touch *const t = &b->t;
@@ -85,7 +86,8 @@ static void take(const struct sim *s, struct block *b, struct wall_block *p, str
     b->kept = p->memory;
     memcpy(b->c.i, p->i, sizeof b->c.i);
     memcpy(b->c.j, p->i, sizeof b->c.j);
-    memcpy(b->slot, p->slot, sizeof b->slot);
+    if (asked || bond_history > 0)
+        memcpy(b->slot, p->slot, sizeof b->slot);
     for (int c = 0; c < t->n; c++) {
         b->c.wall[c] = w;
         t->pair[c] = w->material;
@@ -131,8 +133,8 @@ static void reach_out(const struct sim *s, struct block *b, const struct wall_lo
 }
 
 /* What the contacts remember turns with the wall about the normal, by the angle w . n dt: sine and cosine by their
- * series, to round-off up to SMALL; beyond, from the tangent of half of it, whose series then gives a
- * rotation all the same. With the normal, laws turn it. */
+ * series, to round-off up to SMALL; beyond, from the tangent of half of it, whose series then gives
+ * a rotation all the same. With the normal, laws turn it. */
 #define SMALL 0.1
 
 static inline __attribute__((always_inline)) void
@@ -299,7 +301,7 @@ static void work(struct sim *s, struct block *b, struct wall_block *p, const str
     struct slots *const l = &s->neighbours.walls;
     const int rows = laws_rows();
     struct sight v;
-    take(s, b, p, &v);
+    take(s, b, p, &v, to->asked);
     see(s, p, &v, balls);
     if (balls) {
         balls->enter(b, &v.places);

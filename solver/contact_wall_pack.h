@@ -2,9 +2,10 @@
  * choice of active slots to the next (contact_pack.h does the same for pairs).
  *
  * A ball that is near one element of a wall has a lane of a block, which holds the memory of the
- * contact in place, and where it stays above a face the plane of it. A ball that is near several (triangles of a mesh, sides of a box) is a crowd: its
- * elements stand in a list, and only those that count get lanes, in blocks like the others'. A lane
- * goes with the contact from element to element (contact_wall_crowds.c). */
+ * contact in place, and where it stays above a face the plane of it. A ball that is near several
+ * (triangles of a mesh, sides of a box) is a crowd: its elements stand in a list, and only those that
+ * count get lanes, in blocks like the others'. A lane goes with the contact from element to element
+ * (contact_wall_crowds.c). */
 #ifndef CONTACT_WALL_PACK_H
 #define CONTACT_WALL_PACK_H
 

@@ -87,6 +87,8 @@ void walls_around(const struct sim *s, vec3 x, double reach, struct found *out);
  * *room and grows; returns how many then are. */
 int walls_near(const struct sim *s, int i, double margin, int **out, int *room, int n);
 
+bool wall_is_behind(const struct sim *s, const struct wall *w, vec3 x); /* of what has a side */
+
 /* m; room between a sphere at x and the nearest wall, at most `most`; negative: it overlaps, or is
  * behind a wall (then -INFINITY). `which`: that wall, if not NULL. */
 double walls_gap(const struct sim *s, vec3 x, double radius, double most, int *which);
