@@ -28,6 +28,7 @@
 
 enum design { HALO_SUMS, OWN_ARRAYS, ATOMICS, COLOURS, SLABS, BOTH_SIDES, DESIGNS };
 enum { ROUNDS = 15 };
+static int grains_per_run; /* of the bed at hand (neighbours.h) */
 
 static const struct {
     const char *name;
@@ -118,17 +119,16 @@ static void both_sides(const struct sim *s, struct pack *packs)
                     }
                     const int at = place[grain[side]]++;
                     struct pack_block *const to =
-                        pack_block(&packs[grain[side] / nb->run], at / TOUCH, rows);
+                        pack_block(&packs[grain[side] / grains_per_run], at / TOUCH, rows);
                     set_lane(to, at % TOUCH, from, m, rows);
                     to->i[at % TOUCH] = grain[side];
                     to->j[at % TOUCH] = grain[1 - side];
-                    to->to[at % TOUCH] = b->s->neighbours.run + at % TOUCH;
+                    to->to[at % TOUCH] = grains_per_run + at % TOUCH;
                 }
             }
         for (int run = 0; run < nb->runs && pass == 0; run++) {
             int total = 0;
-            for (int i = run * b->s->neighbours.run;
-                 i < n && i < (run + 1) * b->s->neighbours.run; i++) {
+            for (int i = run * grains_per_run; i < n && i < (run + 1) * grains_per_run; i++) {
                 place[i] = total;
                 total += count[i];
             }
@@ -183,7 +183,7 @@ static void cut_slabs(struct bench *b, struct pack *packs)
                     continue;
                 struct pack_block *const to = pack_block(&packs[slab], at / TOUCH, rows);
                 set_lane(to, at % TOUCH, from, m, rows);
-                to->to[at % TOUCH] = from->j[m] - slab * b->s->neighbours.run;
+                to->to[at % TOUCH] = from->j[m] - slab * grains_per_run;
             }
         }
         for (int slab = 0; slab < b->slabs; slab++) {
@@ -210,8 +210,8 @@ static void list_halos(struct bench *b, struct pack *packs)
             const struct pack_block *const from = pack_block(own, k / TOUCH, nb->rows);
             const int m = k % TOUCH;
             set_lane(pack_block(&packs[run], k / TOUCH, nb->rows), m, from, m, nb->rows);
-            if (from->to[m] >= b->s->neighbours.run)
-                b->halo[nb->halo_begin[run] + from->to[m] - b->s->neighbours.run] = from->j[m];
+            if (from->to[m] >= grains_per_run)
+                b->halo[nb->halo_begin[run] + from->to[m] - grains_per_run] = from->j[m];
         }
         pad(&packs[run], nb->rows);
     }
@@ -243,11 +243,11 @@ static void colour_runs(struct bench *b)
     xfree(used);
 }
 
-/* Works a pack; `sums` are those of grain `run` * b->s->neighbours.run and on. */
+/* Works a pack; `sums` are those of grain `run` * grains_per_run and on. */
 static void work(struct bench *b, int run, struct sums *sums)
 {
     struct sim *const s = b->s;
-    const struct target to = {.first = run * b->s->neighbours.run,
+    const struct target to = {.first = run * grains_per_run,
                               .sums = sums,
                               .report = &b->report[omp_get_thread_num()],
                               .time = s->t};
@@ -259,14 +259,13 @@ static void work(struct bench *b, int run, struct sums *sums)
 /* By atomic additions, from the sums of a run and its halo. */
 static void scatter(const struct bench *b, int run, const struct sums *own)
 {
-    const int n = b->s->grains.n, first = run * b->s->neighbours.run;
+    const int n = b->s->grains.n, first = run * grains_per_run;
     const int halo = b->halo_begin[run + 1] - b->halo_begin[run];
-    for (int k = 0; k < b->s->neighbours.run + halo; k++) {
-        if (k < b->s->neighbours.run && first + k >= n)
+    for (int k = 0; k < grains_per_run + halo; k++) {
+        if (k < grains_per_run && first + k >= n)
             continue;
-        const int i = k < b->s->neighbours.run
-                          ? first + k
-                          : b->halo[b->halo_begin[run] + k - b->s->neighbours.run];
+        const int i =
+            k < grains_per_run ? first + k : b->halo[b->halo_begin[run] + k - grains_per_run];
         double *const to = (double *)&b->array[0][i].both;
         for (int c = 0; c < 8; c++)
             if (c % 4 != 3)
@@ -310,7 +309,7 @@ static void own_arrays(struct bench *b)
     struct sums *const mine = b->array[omp_get_thread_num()];
 #pragma omp for schedule(dynamic)
     for (int run = 0; run < b->s->neighbours.runs; run++)
-        work(b, run, mine + (size_t)run * b->s->neighbours.run);
+        work(b, run, mine + (size_t)run * grains_per_run);
     gather_all(b);
 }
 
@@ -320,8 +319,7 @@ static void atomics(struct bench *b)
     struct sums *const own = b->own[omp_get_thread_num()];
 #pragma omp for schedule(dynamic)
     for (int run = 0; run < b->s->neighbours.runs; run++) {
-        memset(own, 0,
-               (size_t)(b->s->neighbours.run + halo[run + 1] - halo[run]) * sizeof *own);
+        memset(own, 0, (size_t)(grains_per_run + halo[run + 1] - halo[run]) * sizeof *own);
         work(b, run, own);
         scatter(b, run, own);
     }
@@ -334,7 +332,7 @@ static void colours(struct bench *b)
 #pragma omp for schedule(static)
         for (int run = 0; run < b->s->neighbours.runs; run++)
             if (b->colour[run] == colour)
-                work(b, run, b->array[0] + (size_t)run * b->s->neighbours.run);
+                work(b, run, b->array[0] + (size_t)run * grains_per_run);
     }
     gather(b);
 }
@@ -344,7 +342,7 @@ static void slabs(struct bench *b)
     for (int odd = 0; odd < 2; odd++) {
 #pragma omp for schedule(static)
         for (int slab = odd; slab < b->slabs; slab += 2)
-            work(b, slab, b->array[0] + (size_t)slab * b->s->neighbours.run);
+            work(b, slab, b->array[0] + (size_t)slab * grains_per_run);
     }
     gather(b);
 }
@@ -357,9 +355,8 @@ static void both_at_once(struct bench *b)
     for (int run = 0; run < b->s->neighbours.runs; run++) {
         memset(own, 0, sizeof own);
         work(b, run, own);
-        for (int i = run * b->s->neighbours.run;
-             i < g->n && i < (run + 1) * b->s->neighbours.run; i++)
-            set_force(g, i, own[i - run * b->s->neighbours.run]);
+        for (int i = run * grains_per_run; i < g->n && i < (run + 1) * grains_per_run; i++)
+            set_force(g, i, own[i - run * grains_per_run]);
     }
 }
 
@@ -409,6 +406,7 @@ int main(int argc, char **argv)
     step_grains(s, 20);
     struct bench b = {.s = s, .threads = omp_get_max_threads()};
     const int runs = s->neighbours.runs, rows = s->neighbours.rows, n = s->grains.n;
+    grains_per_run = s->neighbours.run;
     int halo = 0;
     for (int run = 0; run < runs; run++)
         halo = s->neighbours.halo_begin[run + 1] - s->neighbours.halo_begin[run] > halo
@@ -419,16 +417,15 @@ int main(int argc, char **argv)
     b.own = xalloc((size_t)b.threads, sizeof *b.own);
     b.report = xalloc((size_t)b.threads, 2 * sizeof *b.report);
     for (int t = 0; t < b.threads; t++) {
-        b.array[t] = xalloc((size_t)(n + s->neighbours.run), sizeof **b.array);
-        b.own[t] = xalloc((size_t)s->neighbours.run + (size_t)halo, sizeof **b.own);
+        b.array[t] = xalloc((size_t)n + grains_per_run, sizeof **b.array);
+        b.own[t] = xalloc((size_t)grains_per_run + (size_t)halo, sizeof **b.own);
     }
     for (int d = 0; d < DESIGNS; d++)
         b.packs[d] =
             d == HALO_SUMS ? s->contacts->pack : xalloc((size_t)runs, sizeof **b.packs);
     for (int run = 0; run < runs; run++) {
-        b.packs[OWN_ARRAYS][run] =
-            direct(&s->contacts->pack[run], run * s->neighbours.run, rows);
-        b.packs[COLOURS][run] = direct(&s->contacts->pack[run], run * s->neighbours.run, rows);
+        b.packs[OWN_ARRAYS][run] = direct(&s->contacts->pack[run], run * grains_per_run, rows);
+        b.packs[COLOURS][run] = direct(&s->contacts->pack[run], run * grains_per_run, rows);
     }
     list_halos(&b, b.packs[ATOMICS]);
     both_sides(s, b.packs[BOTH_SIDES]);
