@@ -101,7 +101,7 @@ scene() { # SHAPE K
     printf '[fluid]\ndensity = 100 kg/m3\nviscosity = 20 mPa s\n'
     printf 'dt = 0.2 ms\n'
     [ "$fluid" = prescribed ] && printf 'velocity = 0 0 0.01 m/s\n'
-    printf '[wall slope]\npoint = 0 0 8 mm\nnormal = 0.3 0 1\n'
+    printf '[wall slope]\npoint = 0 0 8 mm\nnormal = %s 0 1\n' "$([ "$shape" = disc ] && echo 0 || echo 0.3)"
     if [ "$shape" != disc ]; then
         printf '[wall post]\nkind = cylinder\npoint = 24 12 0 mm\naxis = 0 0 1\nradius = 3 mm\nlength = 16 mm\n'
         printf '[wall tip]\nkind = cone\npoint = 16 12 6 mm\naxis = 0 0 1\nradius = 5 mm\nradius_end = 1 mm\nlength = 9 mm\n'
