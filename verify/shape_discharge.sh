@@ -5,7 +5,7 @@
 # dolos-like ones run slowest and lie steepest; its other two shapes are in pictures alone.
 # COUNT is 400; FULL=1: the paper's 4,000 in a hopper of 24 x 24 m (its L0 : W0 : H0 = 2 : 2 : 1, filled to about 12 m)
 # over 8 x 8 m. Fewer: a hopper less wide by the cube root, an opening of no more than 0.55 of it.
-# Measured with 500 (AFTER=8, one filling): hollow boxes 48 +- 4 grains/s (23.2 m3/s), 9 +- 2 degrees (15 in a run that parted by round-off);
+# Measured with 500 (AFTER=8, one filling): hollow boxes 48 +- 4 grains/s (23.2 m3/s), 9 +- 2 degrees (15 by a version with other contacts at plates);
 # dolosse 209 +- 100 (35.4 m3/s), 5 degrees; tetrapods 121 +- 71 (34.7), 6 degrees; crosses 142 +- 65 (36.3), 2 degrees. That is not the paper's order. Of the same
 # count and width the slender ones fill the hopper to a third of its opening's width and leave in one go; what
 # they heap up is two grains high, so neither is a rate nor an angle to compare; most of all, dolosse stay in
