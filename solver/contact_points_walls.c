@@ -84,27 +84,56 @@ static void meet_balls(const struct sim *s, struct meetings *all, const struct a
     }
 }
 
-/* The inset ball of a convex body that lies deepest in an element: its centre from x_i. */
+/* A normal that is tried, the inset ball for it, and how far the element would have the normal turn. */
+struct trial {
+    vec3 n, centre, turn;
+};
+
+static struct trial try_normal(const struct sim *s, const struct around *a,
+                               const struct facing *seen, double inset, vec3 n, double *radius,
+                               struct facing *f)
+{
+    struct trial t = {.n = v3_scale(1.0 / v3_norm(n), n)};
+    t.centre = v3_axpy(shape.support(&a->pose, v3_scale(-1.0, t.n), radius), inset, t.n);
+    *f = facing_look(s, seen->slot, s->neighbours.walls.other[seen->slot],
+                     v3_add(s->grains.pos[a->i], t.centre));
+    t.turn = v3_sub(v3_scale(1.0 / f->distance, f->away), t.n);
+    return t;
+}
+
+/* The inset ball of a convex body that lies deepest in an element: its centre from x_i. The normal
+ * follows the element's; over an edge the point runs ahead of it by the ratio of their radii, and by
+ * any factor where the body is flat: there two normals that turn towards each other close in on the
+ * one between (a body's point goes the other way than its normal, always: there is one). */
 static vec3 deepest(const struct sim *s, const struct around *a, const struct facing *seen,
                     double inset, double *radius, struct facing *f)
 {
-    enum { MOST = 60 };
-    const vec3 x = s->grains.pos[a->i];
-    const int element = s->neighbours.walls.other[seen->slot];
-    vec3 n = v3_scale(1.0 / seen->distance, seen->away), c = v3(0.0, 0.0, 0.0);
-    for (int k = 0; k < MOST; k++) {
-        c = v3_axpy(shape.support(&a->pose, v3_scale(-1.0, n), radius), inset, n);
-        *f = facing_look(s, seen->slot, element, v3_add(x, c));
-        const vec3 change = v3_sub(v3_scale(1.0 / f->distance, f->away), n);
-        /* over an edge the point runs ahead of the normal by the ratio of their radii */
-        const double part =
-            f->part == WALL_FACE ? 1.0 : 1.0 / (1.0 + fmax(0.0, *radius - inset) / f->distance);
-        n = v3_axpy(n, part, change);
-        n = v3_scale(1.0 / v3_norm(n), n);
-        if (v3_dot(change, change) < 1e-26)
-            break;
+    enum { MOST = 100 };
+    const double enough = 1e-26;
+    struct trial at = try_normal(s, a, seen, inset, seen->away, radius, f), other = at;
+    bool between = false;
+    for (int k = 0; k < MOST && v3_dot(at.turn, at.turn) > enough; k++) {
+        const vec3 way = v3_sub(other.n, at.n);
+        const double mine = v3_dot(at.turn, way), its = v3_dot(other.turn, way);
+        struct trial next;
+        between = between && its < 0.0 &&
+                  mine > 0.3 * v3_norm(way) * v3_norm(at.turn); /* or across the two */
+        if (between) {
+            const double part = fmin(fmax(mine / (mine - its), 0.05), 0.95);
+            next = try_normal(s, a, seen, inset, v3_axpy(at.n, k % 3 == 2 ? 0.5 : part, way),
+                              radius, f);
+            other = v3_dot(next.turn, way) > 0.0 ? other : at;
+        } else {
+            const double part = f->part == WALL_FACE
+                                    ? 1.0
+                                    : 1.0 / (1.0 + fmax(0.0, *radius - inset) / f->distance);
+            next = try_normal(s, a, seen, inset, v3_axpy(at.n, part, at.turn), radius, f);
+            between = v3_dot(next.turn, at.turn) < 0.0;
+            other = at;
+        }
+        at = next;
     }
-    return c;
+    return at.centre;
 }
 
 static void meet_convex(const struct sim *s, struct meetings *all, const struct around *a,
