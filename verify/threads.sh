@@ -20,7 +20,7 @@ cases="hopper angle_of_repose drum funnel triaxial clumps throng throng_float th
 make -s build/release/front
 
 throng() { # LAW: of any slot
-    local slot="" material="" section="" contact=hertz_mindlin
+    local slot="" material="" section="" cells="" contact=hertz_mindlin
     case $1 in
         hertz | hertz_mindlin_liu) contact=$1 ;;
         linear) contact=linear material="stiffness = 20 kN/m" ;;
@@ -37,7 +37,8 @@ rolling_stiffness = 1e-4 N m\ntorsion_stiffness = 1e-4 N m' ;;
 bond_strength = 0.01 N\nbond_strength_shear = 0.01 N' section=$'[bond]\ngap = 0.1 mm\ntime = 2 ms' ;;
         parallel_bond) slot="bond = $1" material=$'bond_stiffness = 1e10 Pa/m\nbond_stiffness_shear = 1e10 Pa/m
 bond_strength = 1e4 Pa\nbond_strength_shear = 1e4 Pa' section=$'[bond]\ngap = 0.1 mm\ntime = 2 ms' ;;
-        squeeze) slot="lubrication = $1" section=$'[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s
+        squeeze) slot=$'lubrication = squeeze\nfluid = prescribed' cells="cells = 6 5 10"
+            section=$'[fluid]\ndensity = 1000 kg/m3\nviscosity = 1 mPa s\ndt = 0.1 ms\nvelocity = 0 0 0 m/s
 [lubrication]\ngap_min = 10 um\nrange = 0.2 mm' ;;
     esac
     [ "$contact" = linear ] || material+=$'\nyoung = 20 MPa\npoisson = 0.3'
@@ -49,6 +50,7 @@ $slot
 [domain]
 size = 24 20 40 mm
 y    = periodic
+$cells
 [grains g]
 sizes        = uniform
 diameter_min = 0.6 mm
