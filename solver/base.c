@@ -92,6 +92,17 @@ char *xprintf(const char *format, ...)
     return text;
 }
 
+void sort_few(int *x, int n)
+{
+    for (int i = 1; i < n; i++) {
+        const int v = x[i];
+        int j = i;
+        for (; j > 0 && x[j - 1] > v; j--)
+            x[j] = x[j - 1];
+        x[j] = v;
+    }
+}
+
 double wall_clock(void)
 {
     struct timespec t;

@@ -37,6 +37,15 @@ void xfree(void *p);
 char *xstrdup(const char *text); /* free with xfree */
 char *xprintf(const char *format, ...) __attribute__((format(printf, 1, 2))); /* xfree */
 
+/* x, where it is more than the most so far; not a number is more than any, and stays. */
+static inline double larger(double most, double x)
+{
+    return x <= most || most != most ? most : x;
+}
+
+/* In rising order; for few. */
+void sort_few(int *x, int n);
+
 double wall_clock(void); /* s, monotonic */
 
 /* Sum of x[0..n-1], the same bits for any number of threads. */

@@ -56,17 +56,6 @@ static int cell_of(const struct cells *c, vec3 x)
            wide * ((j - bj) + deep * (k - bk));
 }
 
-static void sort_ints(int *x, int n)
-{
-    for (int i = 1; i < n; i++) {
-        const int v = x[i];
-        int j = i;
-        for (; j > 0 && x[j - 1] > v; j--)
-            x[j] = x[j - 1];
-        x[j] = v;
-    }
-}
-
 /* order[new] = old; `n`: how many stay. */
 static int *order_by_cell(struct sim *s, int *n)
 {
@@ -101,7 +90,7 @@ static int *order_by_cell(struct sim *s, int *n)
     }
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < c.all; k++)
-        sort_ints(order + begin[k], begin[k + 1] - begin[k]);
+        sort_few(order + begin[k], begin[k + 1] - begin[k]);
     *n = begin[c.all];
     xfree(begin);
     xfree(next);

@@ -100,6 +100,19 @@ static inline void kick_drift(const struct frame *frame, const struct kicks *k, 
     body_write(b, r, m, m->vel + kick.force);
 }
 
+/* The second half of a kick, the first of the next and the drift, by the forces at hand. */
+static inline struct motion_state kicks_drift(const struct frame *frame, const struct kicks *k,
+                                              struct body *b, struct body_rest *r,
+                                              struct wrench f)
+{
+    struct motion_state m = body_state(b, r);
+    const struct wrench kick = kick_of(k, b, r, f);
+    m.vel += kick.force;
+    m.spin += kick.torque;
+    kick_drift(frame, k, b, r, &m, kick);
+    return m;
+}
+
 /* The pace of grain i. */
 static inline double pace_of(const struct sim *s, int i, const struct motion_state *m)
 {
@@ -143,11 +156,11 @@ void motion_start(struct sim *s, int parity)
             kick_drift(&s->frame, &k, b, r, &m, kick_of(&k, b, r, at_hand));
             g->pos[i] = motion_pos(&s->frame, &m);
             const double pace = pace_of(s, i, &m);
-            fastest = pace <= fastest ? fastest : pace; /* not a number counts as fast */
+            fastest = larger(fastest, pace);
             if (turns) {
                 turns->start(s, i, spin, t);
                 const double own = tip_pace(s, i);
-                tip = own <= tip ? tip : own;
+                tip = larger(tip, own);
             }
         }
     neighbours_speed(s, parity, fastest, tip);
@@ -208,15 +221,11 @@ turn_run(struct sim *s, const struct kicks *k, int run, struct sums *sums, bool 
         const struct wrench f = forces(s, k, &sums[i], run * s->neighbours.run + i);
         if (b->vel[3] == (real)0.0)
             continue;
-        struct motion_state m = body_state(b, r);
-        const struct wrench kick = kick_of(k, b, r, f);
-        m.vel += kick.force;
-        m.spin += kick.torque;
-        kick_drift(&frame, k, b, r, &m, kick);
+        const struct motion_state m = kicks_drift(&frame, k, b, r, f);
         if (places)
             pos[i] = motion_pos(&frame, &m);
         const double pace = neighbours_pace(drift, paces[i], m.vel);
-        fastest = pace <= fastest ? fastest : pace;
+        fastest = larger(fastest, pace);
     }
     return fastest;
 }
@@ -232,17 +241,13 @@ static double turn_bodies(struct sim *s, const struct kicks *k, int run, struct 
         const struct wrench f = forces(s, k, &sums[i - run * s->neighbours.run], i);
         if (b->vel[3] == (real)0.0)
             continue;
-        struct motion_state m = body_state(b, r);
-        const struct wrench kick = kick_of(k, b, r, f);
-        m.vel += kick.force;
-        m.spin += kick.torque;
-        kick_drift(&s->frame, k, b, r, &m, kick);
+        const struct motion_state m = kicks_drift(&s->frame, k, b, r, f);
         s->grains.pos[i] = motion_pos(&s->frame, &m);
         const double pace = pace_of(s, i, &m);
-        fastest = pace <= fastest ? fastest : pace;
+        fastest = larger(fastest, pace);
         shape.path->turning->turn(s, i, narrow(f.torque));
         const double own = tip_pace(s, i);
-        *tip = own <= *tip ? *tip : own;
+        *tip = larger(*tip, own);
     }
     return fastest;
 }
@@ -261,7 +266,7 @@ void motion_turn(struct sim *s, bool last, int parity)
         const double pace = shape.path->turning           ? turn_bodies(s, &k, run, sums, &tip)
                             : contact_asks_places(s, run) ? turn_run(s, &k, run, sums, true)
                                                           : turn_run(s, &k, run, sums, false);
-        fastest = pace <= fastest ? fastest : pace;
+        fastest = larger(fastest, pace);
     }
     neighbours_speed(s, parity, fastest, tip);
 #pragma omp barrier

@@ -137,20 +137,13 @@ static void choose_skins(struct sim *s)
     nb->thin = nb->thin > 2.0 * rate ? nb->thin : 0.0;
 }
 
-/* The largest; not a number stays. */
-static void raise_to(double *most, double x)
-{
-    if (!(x <= *most))
-        *most = x;
-}
-
 void neighbours_speed(struct sim *s, int step, double square, double tip)
 {
     struct neighbours *const nb = &s->neighbours;
 #pragma omp critical(neighbours_speed)
     {
-        raise_to(&nb->fastest[step % 2], square);
-        raise_to(&nb->tips[step % 2], tip);
+        nb->fastest[step % 2] = larger(nb->fastest[step % 2], square);
+        nb->tips[step % 2] = larger(nb->tips[step % 2], tip);
     }
 }
 

@@ -5,9 +5,12 @@
 #include "output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <netcdf.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include "output_file.h"
 #include "surface_file.h"
 #include "xdmf.h"
@@ -35,10 +38,23 @@ static void make_folder(const char *path)
     xfree(copy);
 }
 
+/* Another run to the same folder would spoil the files of the first. The lock goes with the process, or with its
+ * next run. */
+static void lock_folder(const char *path)
+{
+    static int folder = -1;
+    if (folder >= 0)
+        close(folder);
+    folder = open(path, O_RDONLY | O_DIRECTORY);
+    if (folder >= 0 && flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        die(EXIT_WRITE, "%s: another run writes to this folder", path);
+}
+
 void output_create(struct sim *s, struct scene *scene)
 {
     struct output_file *const f = &out;
     make_folder(s->run.directory);
+    lock_folder(s->run.directory);
     errno = 0;
     output_file_open(f, s, "run.nc");
     char *const text = scene_resolved(scene);

@@ -99,17 +99,6 @@ static int home_of(const struct search *c, const struct sim *s, const float *ski
            l->n[0] * (step_to(l, x.y, 1) + l->n[1] * step_to(l, x.z, 2));
 }
 
-static void sort_ints(int *x, int n)
-{
-    for (int i = 1; i < n; i++) {
-        const int v = x[i];
-        int j = i;
-        for (; j > 0 && x[j - 1] > v; j--)
-            x[j] = x[j - 1];
-        x[j] = v;
-    }
-}
-
 static void fill_cells(struct search *c, const struct sim *s, const float *skin)
 {
     const int n = s->grains.n;
@@ -136,7 +125,7 @@ static void fill_cells(struct search *c, const struct sim *s, const float *skin)
     }
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < c->cells; k++)
-        sort_ints(c->grain + c->begin[k], c->begin[k + 1] - c->begin[k]);
+        sort_few(c->grain + c->begin[k], c->begin[k + 1] - c->begin[k]);
     xfree(next);
     xfree(home);
 }

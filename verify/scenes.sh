@@ -150,6 +150,10 @@ for signal in INT TERM; do
     "$wet" scenes/packed_bed.ini "${short[@]}" run.settle_energy=0.5 "run.end=100 s" -o "$tmp/$signal" > "$tmp/log" 2>&1 &
     pid=$!
     sleep 3
+    if [ $signal = INT ]; then # and a second run to the same folder
+        "$dry" scenes/bounce.ini -o "$tmp/$signal" 2>&1 | grep -q "another run writes to this folder"
+        verdict $? "a folder that another run writes to is refused"
+    fi
     kill -$signal $pid
     wait $pid
     status=$?

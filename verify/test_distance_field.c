@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include "../solver/base.h"
 #include "../solver/distance_field.h"
+#include "ball_mesh.h"
 #include "check.h"
 
 static gsl_rng *rng;
@@ -13,28 +14,6 @@ static gsl_rng *rng;
 static double uniform(double lo, double hi)
 {
     return lo + (hi - lo) * gsl_rng_uniform(rng);
-}
-
-/* Octahedron drawn out to a ball, 8 N^2 triangles. */
-static vec3 *ball(int N, int *n)
-{
-    vec3 *const c = xalloc((size_t)(24 * N * N), sizeof *c);
-    *n = 0;
-    for (int o = 0; o < 8; o++)
-        for (int i = 0; i < N; i++)
-            for (int j = 0; j < N - i; j++) {
-                vec3 p[4];
-                for (int k = 0; k < 4; k++) {
-                    const int u = i + (k == 1 || k == 3), v = j + (k == 2 || k == 3);
-                    p[k] = v3((o & 1 ? -1 : 1) * u, (o & 2 ? -1 : 1) * v,
-                              (o & 4 ? -1 : 1) * (N - u - v));
-                    p[k] = v3_scale(1 / v3_norm(p[k]), p[k]);
-                }
-                memcpy(c + 3 * (*n)++, p, 3 * sizeof *p);
-                if (i + j + 2 <= N)
-                    memcpy(c + 3 * (*n)++, p + 1, 3 * sizeof *p);
-            }
-    return c;
 }
 
 /* The twelve triangles of a box. */
@@ -98,7 +77,7 @@ static void test_ball(void)
 {
     int n;
     char *why = NULL;
-    vec3 *const c = ball(40, &n);
+    vec3 *const c = ball_mesh(40, &n);
     struct distance_field *const f = distance_of_triangles(c, n, 33, &why);
     double near = 0, far = 0, slope = 0;
     for (int k = 0; k < 4000; k++) {

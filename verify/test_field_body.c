@@ -9,6 +9,7 @@
 #include "../solver/shadow.h"
 #include "../solver/superquadric.h"
 #include "../solver/volume_parts.h"
+#include "ball_mesh.h"
 #include "check.h"
 
 static gsl_rng *rng;
@@ -28,24 +29,9 @@ static struct mat3 turn(void)
 static vec3 *ellipsoid(int N, int *n)
 {
     const struct mat3 m = quat_matrix(quat_unit((struct quat){0.9, 0.3, -0.2, 0.4}));
-    vec3 *const c = xalloc((size_t)(24 * N * N), sizeof *c);
-    *n = 0;
-    for (int o = 0; o < 8; o++)
-        for (int i = 0; i < N; i++)
-            for (int j = 0; j < N - i; j++) {
-                vec3 p[4];
-                for (int k = 0; k < 4; k++) {
-                    const int u = i + (k == 1 || k == 3), v = j + (k == 2 || k == 3);
-                    p[k] = v3((o & 1 ? -1 : 1) * u, (o & 2 ? -1 : 1) * v,
-                              (o & 4 ? -1 : 1) * (N - u - v));
-                    p[k] = v3_scale(1 / v3_norm(p[k]), p[k]);
-                    p[k] = v3_add(v3(3, 2, 1),
-                                  mat3_turn(&m, v3(p[k].x, 0.8 * p[k].y, 0.6 * p[k].z)));
-                }
-                memcpy(c + 3 * (*n)++, p, 3 * sizeof *p);
-                if (i + j + 2 <= N)
-                    memcpy(c + 3 * (*n)++, p + 1, 3 * sizeof *p);
-            }
+    vec3 *const c = ball_mesh(N, n);
+    for (int k = 0; k < 3 * *n; k++)
+        c[k] = v3_add(v3(3, 2, 1), mat3_turn(&m, v3(c[k].x, 0.8 * c[k].y, 0.6 * c[k].z)));
     return c;
 }
 

@@ -5,39 +5,27 @@
 #include <omp.h>
 #include <unistd.h>
 #include "../solver/contact_loop.h"
+#include "ball_mesh.h"
 #include "check.h"
 #include "harness.h"
 
 static char folder[] = "/tmp/silt-level-XXXXXX";
 
-/* Any closed body: the octants of a sphere, N triangles a side, each point moved by `form`. */
+/* Any closed body: a ball, each point moved by `form`. */
 static char *write_stl(const char *name, vec3 (*form)(vec3))
 {
-    enum { N = 12 };
     char *const path = xprintf("%s/%s.stl", folder, name);
     FILE *const file = fopen(path, "w");
+    int n;
+    vec3 *const c = ball_mesh(12, &n);
     fprintf(file, "solid %s\n", name);
-    for (int o = 0; o < 8; o++)
-        for (int i = 0; i < N; i++)
-            for (int j = 0; j < N - i; j++) {
-                vec3 p[4];
-                for (int k = 0; k < 4; k++) {
-                    const int u = i + (k == 1 || k == 3), v = j + (k == 2 || k == 3);
-                    p[k] = v3((o & 1 ? -1 : 1) * u, (o & 2 ? -1 : 1) * v,
-                              (o & 4 ? -1 : 1) * (N - u - v));
-                    p[k] = form(v3_scale(1.0 / v3_norm(p[k]), p[k]));
-                }
-                const bool in = ((o ^ o >> 1 ^ o >> 2) & 1) != 0;
-                for (int t = 0; t < (i + j + 2 <= N ? 2 : 1); t++) {
-                    const vec3 a = p[t ? 3 : 0], b = p[in == !t ? 2 : 1],
-                               c = p[in == !t ? 1 : 2];
-                    fprintf(
-                        file,
-                        "facet normal 0 0 0\nouter loop\nvertex %.9g %.9g %.9g\nvertex %.9g "
-                        "%.9g %.9g\nvertex %.9g %.9g %.9g\nendloop\nendfacet\n",
-                        a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z);
-                }
-            }
+    for (int k = 0; k < 3 * n; k++) {
+        const vec3 x = form(c[k]);
+        fprintf(file, "%svertex %.9g %.9g %.9g\n%s",
+                k % 3 == 0 ? "facet normal 0 0 0\nouter loop\n" : "", x.x, x.y, x.z,
+                k % 3 == 2 ? "endloop\nendfacet\n" : "");
+    }
+    xfree(c);
     fprintf(file, "endsolid\n");
     fclose(file);
     return path;

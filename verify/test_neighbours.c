@@ -2,7 +2,11 @@
  * periodic sides, sizes of 3:1 and of 20:1, grains that all drift and a few that do not, a moving wall;
  * bits on 1, 2, 3, 7 and 16 threads. */
 /* slots: contact/hertz_mindlin */
+#include <math.h>
 #include <omp.h>
+#include <stdio.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include "check.h"
 #include "harness.h"
 
@@ -78,8 +82,33 @@ static struct sim *look(const char *scene, int looks, long most_least)
     return s;
 }
 
+/* A grain whose velocity is no number stops the run at once, wherever it stands among the others. */
+static void check_lost(int i)
+{
+    int status = 0;
+    fflush(stdout);
+    const pid_t pid = fork();
+    if (pid == 0) {
+        struct sim *const s = sim_from(SCENE);
+        if (!freopen("/dev/null", "w", stderr))
+            _exit(99);
+        ledger_start(s);
+        step(s);
+        s->grains.vel[i].y = (double)NAN;
+        step(s);
+        _exit(0);
+    }
+    const bool ended = pid > 0 && waitpid(pid, &status, 0) == pid && WIFEXITED(status);
+    check(ended && WEXITSTATUS(status) == EXIT_UNSTABLE,
+          "velocity of grain %d not a number: exit status %d", i, WEXITSTATUS(status));
+}
+
 int main(void)
 {
+    check(isnan(larger(larger(larger(0.0, 2.0), (double)NAN), 3.0)) && larger(2.0, 1.0) == 2.0,
+          "the largest of numbers and one that is none is none");
+    check_lost(0);
+    check_lost(7);
     struct sim *s = look(DRIFT, 100, 10);
     check(s->neighbours.drift_speed > 1.0, "the grains drift at %.3g m/s",
           s->neighbours.drift_speed);
