@@ -183,8 +183,8 @@ static inline void body_set_spin(struct body *b, struct body_rest *r, vec3 spin)
     }
 }
 
-/* Writes the body of a grain in that state, but for its material and, in float, its radius; `full`: velocity predicted for the
- * full step. */
+/* Writes the body of a grain in that state, but for its material and, in float, its radius; `full`:
+ * velocity predicted for the full step. */
 static inline void body_write(struct body *b, struct body_rest *r, const struct motion_state *m,
                               double4 full)
 {

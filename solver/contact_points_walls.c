@@ -104,7 +104,8 @@ static struct trial try_normal(const struct sim *s, const struct around *a,
 /* The inset ball of a convex body that lies deepest in an element: its centre from x_i. The normal
  * follows the element's; over an edge the point runs ahead of it by the ratio of their radii, and by
  * any factor where the body is flat: there two normals that turn towards each other close in on the
- * one between (a body's point goes the other way than its normal, always: there is one). */
+ * one between, by false position and every third time by halves (the point of a convex body goes the
+ * way of its outer normal, always: there is one). */
 static vec3 deepest(const struct sim *s, const struct around *a, const struct facing *seen,
                     double inset, double *radius, struct facing *f)
 {

@@ -1,8 +1,9 @@
 /* mesh_read.c - STL, binary and ASCII [StereoLithography89].
  *
  * Binary: 80 bytes of anything, the number of triangles, and 50 bytes for each: normal, three corners,
- * two bytes. ASCII: "solid", facets of three vertices, "endsolid"; several solids make one surface. Many binary files begin with "solid"
- * all the same, so the size decides. Normals are not read: they follow from the corners. */
+ * two bytes. ASCII: "solid", facets of three vertices, "endsolid"; several solids make one surface. Many
+ * binary files begin with "solid" all the same, so the size decides. Normals are not read: they follow
+ * from the corners. */
 #include "mesh.h"
 
 #include <errno.h>
