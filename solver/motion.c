@@ -9,6 +9,7 @@
  * with the gathering of the forces: the pass reads and writes each grain once a step. */
 #include "motion.h"
 
+#include <omp.h>
 #include "contact_loop.h"
 #include "contact_path.h"
 #include "sim.h"
@@ -167,6 +168,20 @@ void motion_start(struct sim *s, int parity)
 #pragma omp barrier
 }
 
+/* The sums of a run's contacts, gathered from all runs; the master's time for it is not motion's. */
+static struct sums *gather(struct sim *s, int run)
+{
+    const bool master = omp_get_thread_num() == 0;
+    const double since = master ? wall_clock() : 0.0;
+    struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
+    if (master) {
+        const double took = wall_clock() - since;
+        s->timers.seconds[TIME_GATHER] += took;
+        s->timers.seconds[TIME_MOTION] -= took;
+    }
+    return sums;
+}
+
 /* Through memory that the compiler does not look into, see sums_part. */
 static vec3 narrow(double4 x)
 {
@@ -182,7 +197,7 @@ static void end_steps(struct sim *s)
     const struct kicks k = kicks_of(s);
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < s->neighbours.runs; run++) {
-        struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
+        struct sums *const sums = gather(s, run);
         for (int i = run * s->neighbours.run; i < run_end(s, run); i++) {
             const struct wrench f = forces(s, &k, &sums[i - run * s->neighbours.run], i);
             struct motion_state m = body_state(&s->bodies[i], &s->rests[i]);
@@ -262,7 +277,7 @@ void motion_turn(struct sim *s, bool last, int parity)
     }
 #pragma omp for schedule(static) nowait
     for (int run = 0; run < s->neighbours.runs; run++) {
-        struct sums *const sums = contact_gather(s->contacts, &s->neighbours, run);
+        struct sums *const sums = gather(s, run);
         const double pace = shape.path->turning           ? turn_bodies(s, &k, run, sums, &tip)
                             : contact_asks_places(s, run) ? turn_run(s, &k, run, sums, true)
                                                           : turn_run(s, &k, run, sums, false);

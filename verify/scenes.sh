@@ -121,6 +121,10 @@ for f in drum/bed.png funnel/bed.png level_set/bed.png triaxial/force_chains.png
 done
 grep -q '^pressure_drop_1_simulated = .* Pa' "$tmp/bed/summary.txt"
 verdict $? "summary.txt holds the table"
+for t in motion sort search lists contacts gather ledger; do
+    awk -v x="$(value "$tmp/bed" time_$t)" 'BEGIN { exit !(x > 0) }' || break
+done
+verdict $? "each part of the grains' step has its time ($t: $(value "$tmp/bed" time_$t) s)"
 
 # A binary holds what its scene requires.
 dry=$(binary_of scenes/bounce.ini)
