@@ -155,7 +155,8 @@ for signal in INT TERM; do
     pid=$!
     sleep 3
     if [ $signal = INT ]; then # and a second run to the same folder
-        "$dry" scenes/bounce.ini -o "$tmp/$signal" 2>&1 | grep -q "another run writes to this folder"
+        "$dry" scenes/bounce.ini -o "$tmp/$signal" > "$tmp/second" 2>&1
+        [ $? = 4 ] && grep -q "another run writes to this folder" "$tmp/second"
         verdict $? "a folder that another run writes to is refused"
     fi
     kill -$signal $pid
